@@ -1,0 +1,54 @@
+// The capture engine: draw a scene under views and lights of our own, and read what was seen.
+// Method: Natvig 2006, "Simplified Mesh Generation from Renders", sections 2-4.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "capture/gl/gl_table.h"
+#include "capture/view.h"
+#include "capture/view_image.h"
+
+namespace glcast {
+
+/// Draws the whole scene once through the table it is given, and through nothing else. It may set any state, clear
+/// and change matrices: the table forces what a pass needs (capture/forced_table.h). It is called many times and
+/// must draw the same each time. State it relies on, it must set (a replayed frame starts with its own prologue).
+using DrawFunction = std::function<void(const GlTable& gl)>;
+
+enum class NormalMethod {
+    signed_lights, ///< one render, lights of positive and negative colour
+    six_lights,    ///< the paper's: six renders, one white light each
+};
+
+struct EngineOptions {
+    int n = 512; ///< samples per axis, min_resolution..max_resolution
+    NormalMethod normals = NormalMethod::signed_lights;
+    std::optional<Box> box;          ///< given, or found by drawing
+    glm::dmat4 eye_to_capture{1.0};  ///< C: from the scene's eye space to the capture frame, a similarity
+    Box search{glm::dvec3(-1.0), 2.0}; ///< where the box search starts, capture frame; it grows while the scene touches it
+    bool use_float_targets = true;   ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
+};
+
+struct EngineReport {
+    bool ok = false;
+    std::string error;        ///< one line when not ok: "nothing solid was drawn", "no framebuffer objects", ...
+    Box box;
+    bool float_targets = false;
+    int draws = 0;            ///< how often the draw function was called
+    long pixels_without_normal = 0; ///< covered pixels whose draw was unlit or whose normal pass missed
+    double box_seconds = 0, colour_seconds = 0, normal_seconds = 0, read_seconds = 0;
+};
+
+/// Takes each finished image in the order -x +x -y +y -z +z; false stops the capture.
+using ImageSink = std::function<bool(ViewImage&&)>;
+
+/// Capture in the current context. `gl` are its real entry points, compatibility profile, framebuffer objects needed.
+/// The context's state is not restored: give it one of ours (a sibling of the program's, or OSMesa).
+/// Never throws; errors are in the report. GL errors raised by the scene are swallowed in this context.
+EngineReport run_capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options, const ImageSink& sink);
+
+/// Find the smallest cube (2 samples of margin at n) around all that is drawn; nothing when nothing is.
+std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
+
+} // namespace glcast
