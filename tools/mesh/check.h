@@ -8,21 +8,25 @@ namespace glcast {
 
 struct MeshCheck {
     std::size_t vertices = 0, edges = 0, triangles = 0, components = 0;
-    std::size_t boundary_edges = 0;       ///< edges with one triangle
-    std::size_t non_manifold_edges = 0;   ///< edges with more than two, or two that run the same way
-    std::size_t non_manifold_vertices = 0; ///< vertices whose triangles are not one closed fan
-    std::size_t degenerate_triangles = 0; ///< two equal corners
+    std::size_t boundary_edges = 0;     ///< edges with one triangle
+    std::size_t non_manifold_edges = 0; ///< edges with more than two, or two that run the same way
+    std::size_t non_manifold_vertices =
+        0; ///< vertices whose triangles are not one fan (closed, or open at a boundary)
+    std::size_t degenerate_triangles = 0; ///< two equal corners, or a corner that is no vertex
     std::size_t unused_vertices = 0;
-    long euler = 0;                       ///< V - E + F over used vertices
-    double volume = 0, area = 0;          ///< signed volume: positive when triangles face outwards
+    long euler = 0;              ///< V - E + F over used vertices and triangles that are not degenerate
+    double volume = 0, area = 0; ///< signed volume: positive when triangles face outwards
 
     bool closed_manifold() const {
-        return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0 && non_manifold_vertices == 0 &&
-               degenerate_triangles == 0;
+        return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0 &&
+               non_manifold_vertices == 0 && degenerate_triangles == 0;
     }
 };
 
 /// O(triangles) memory and about linear time.
 MeshCheck check_mesh(const Mesh& mesh);
+
+/// "closed two-manifold", or what is wrong with it: "3 boundary edges, 1 non-manifold vertex".
+std::string describe(const MeshCheck& check);
 
 } // namespace glcast
