@@ -1,5 +1,7 @@
-// Quadric edge collapse (Garland and Heckbert 1997) by OpenMesh.
+// Quadric edge collapse (Garland and Heckbert 1997) on OpenMesh's half-edge mesh.
 #pragma once
+#include <span>
+
 #include "tools/mesh/mesh.h"
 
 namespace glcast {
@@ -9,8 +11,15 @@ struct SimplifyTarget {
     double value = 0; ///< ratio: share of the triangles to keep, 0..1
 };
 
-/// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that keep it
-/// manifold allow; colours and normals follow the surface. Needs a closed two-manifold.
+/// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
+/// keep it manifold allow; colours and normals follow the surface. Needs a closed two-manifold: throws
+/// std::runtime_error on anything else, and on a target below 0 or a ratio above 1. Where the mesh is small
+/// enough already it comes back as it is. Every colour is one that the mesh has. The same mesh gives the same
+/// result, bit for bit.
 Mesh simplify(const Mesh& mesh, const SimplifyTarget& target);
+
+/// A mesh per target, in the order of the targets, made by one run of collapses from fine to coarse: as much
+/// work as the coarsest alone, and each level is a simplification of the finer ones.
+std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets);
 
 } // namespace glcast

@@ -1,0 +1,30 @@
+// Colours and normals for vertices that have moved along or off a surface. Internal.
+#pragma once
+#include "tools/mesh/mesh.h"
+
+namespace glcast {
+
+/// Finds the nearest point of a surface by walking along it from a vertex nearby, so that it never jumps to
+/// the other side of a thin sheet or to another part, as a search through space would.
+class SurfaceWalk {
+  public:
+    explicit SurfaceWalk(const Mesh& mesh); ///< `mesh` must outlive this
+
+    /// The attributes of the surface at `positions[i]`, walking from vertex `starts[i]`. A colour is always
+    /// the colour of one vertex: mixing would invent colours where parts meet. Normals are interpolated.
+    void take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts) const;
+
+  private:
+    struct Place {
+        std::uint32_t triangle = 0;
+        glm::dvec3 weights{1, 0, 0};
+    };
+    Place nearest(const glm::dvec3& point, std::uint32_t start) const;
+
+    const Mesh& mesh;
+    std::vector<std::uint32_t>
+        first; ///< per vertex, where its triangles begin in `incident`; one more at the end
+    std::vector<std::uint32_t> incident;
+};
+
+} // namespace glcast

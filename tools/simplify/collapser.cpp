@@ -1,0 +1,311 @@
+// Garland and Heckbert 1997, "Surface simplification using quadric error metrics".
+//
+// OpenMesh's own DecimaterT collapses half-edges, so that vertices can only stay where they are, and it
+// leaves the priorities of edges into a grown vertex stale. This one places the new vertex where the quadric
+// is least and keeps every priority true. Mesh, link condition, quadrics and heap are OpenMesh's.
+#include "tools/simplify/collapser.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Utils/HeapT.hh>
+// After the mesh: it uses vector_traits without including them.
+#include <OpenMesh/Core/Geometry/QuadricT.hh>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+namespace glcast {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+    using Normal = OpenMesh::Vec3d;
+    VertexAttributes(OpenMesh::Attributes::Status);
+    EdgeAttributes(OpenMesh::Attributes::Status);
+    FaceAttributes(OpenMesh::Attributes::Status);
+    HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
+};
+using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using VertexHandle = HalfEdgeMesh::VertexHandle;
+using EdgeHandle = HalfEdgeMesh::EdgeHandle;
+using HalfedgeHandle = HalfEdgeMesh::HalfedgeHandle;
+using OpenMesh::Vec3d;
+using Quadric = OpenMesh::Geometry::Quadricd;
+
+// What a collapse may do to the triangles around it. The first row keeps the shape; when it allows no more
+// and the target is not reached, the next takes over. The last asks for nothing but a manifold.
+struct Strictness {
+    double min_cosine;  ///< between a triangle's normal before and after
+    double min_quality; ///< 1 is equilateral, 0 degenerate; what was worse already may stay as bad
+};
+constexpr Strictness strictness[] = {{0.2, 0.01}, {0.0, 1e-6}, {-2.0, 0.0}};
+
+// Where a quadric does not care (along a plane or a crease), the new vertex stays at the middle of the edge.
+// Relative to the quadric's trace: far above the rounding of doubles, far below any bend worth keeping.
+constexpr double stay_near_middle = 1e-6;
+// In flat places all collapses cost nothing; short edges first makes the better triangles. Relative as above;
+// at a lattice of 256 it outweighs noise of 1e-4 samples and is outweighed by any curvature.
+constexpr double prefer_short_edges = 1e-7;
+
+double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubled_area) {
+    const double squares = (b - a).sqrnorm() + (c - b).sqrnorm() + (a - c).sqrnorm();
+    return squares > 0 ? 2 * std::sqrt(3.0) * doubled_area / squares : 0;
+}
+
+/// Offset from `middle` to where the quadric, held near the middle, is least.
+Vec3d least(const Quadric& q, const Vec3d& middle) {
+    const double hold = stay_near_middle * (q.xx() + q.yy() + q.zz());
+    const double xx = q.xx() + hold, yy = q.yy() + hold, zz = q.zz() + hold;
+    const Vec3d b(-(q.xx() * middle[0] + q.xy() * middle[1] + q.xz() * middle[2] + q.xw()),
+                  -(q.xy() * middle[0] + q.yy() * middle[1] + q.yz() * middle[2] + q.yw()),
+                  -(q.xz() * middle[0] + q.yz() * middle[1] + q.zz() * middle[2] + q.zw()));
+    const double c00 = yy * zz - q.yz() * q.yz(), c01 = q.xz() * q.yz() - q.xy() * zz,
+                 c02 = q.xy() * q.yz() - q.xz() * yy, c11 = xx * zz - q.xz() * q.xz(),
+                 c12 = q.xy() * q.xz() - xx * q.yz(), c22 = xx * yy - q.xy() * q.xy();
+    const double determinant = xx * c00 + q.xy() * c01 + q.xz() * c02;
+    if (!(determinant > 0)) return Vec3d(0, 0, 0);
+    return Vec3d(c00 * b[0] + c01 * b[1] + c02 * b[2], c01 * b[0] + c11 * b[1] + c12 * b[2],
+                 c02 * b[0] + c12 * b[1] + c22 * b[2]) /
+           determinant;
+}
+
+struct Placement {
+    Vec3d point;
+    double cost;
+};
+
+/// Cheapest first; equal costs by index, so that the order never depends on anything else.
+struct HeapOrder {
+    std::vector<double>* cost;
+    std::vector<int>* position;
+    bool less(EdgeHandle a, EdgeHandle b) const {
+        const double ca = (*cost)[a.idx()], cb = (*cost)[b.idx()];
+        return ca < cb || (ca == cb && a.idx() < b.idx());
+    }
+    bool greater(EdgeHandle a, EdgeHandle b) const { return less(b, a); }
+    int get_heap_position(EdgeHandle e) const { return (*position)[e.idx()]; }
+    void set_heap_position(EdgeHandle e, int at) { (*position)[e.idx()] = at; }
+};
+
+} // namespace
+
+struct Collapser::Impl {
+    const Mesh& original;
+    HalfEdgeMesh mesh; ///< in a unit cube about 0; vertex i is the original's vertex i while it lives
+    glm::dvec3 centre{0};
+    double scale = 1;
+    std::vector<Quadric> quadrics;
+    std::vector<std::uint32_t> sources;
+    std::vector<bool> moved;
+    std::vector<double> cost;       ///< by edge
+    std::vector<int> heap_position; ///< by edge, -1: not on the heap
+    OpenMesh::Utils::HeapT<EdgeHandle, HeapOrder> heap{HeapOrder{&cost, &heap_position}};
+    std::size_t live_triangles = 0;
+    std::size_t stage = 0;
+
+    explicit Impl(const Mesh& from) : original(from) {}
+
+    Vec3d inside(const glm::dvec3& p) const {
+        const glm::dvec3 q = (p - centre) * scale;
+        return {q.x, q.y, q.z};
+    }
+
+    void fit_to_unit_cube() {
+        glm::dvec3 low(original.positions.at(0)), high(low);
+        for (const glm::dvec3& p : original.positions) low = min(low, p), high = max(high, p);
+        centre = (low + high) * 0.5;
+        const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        scale = extent > 0 ? 1 / extent : 1;
+    }
+
+    void build_connectivity() {
+        const std::size_t faces = original.triangles.size();
+        mesh.reserve(original.positions.size(), faces * 3 / 2, faces);
+        for (const glm::dvec3& p : original.positions) mesh.add_vertex(inside(p));
+        for (const Triangle& t : original.triangles) {
+            const auto face =
+                mesh.add_face(VertexHandle(int(t[0])), VertexHandle(int(t[1])), VertexHandle(int(t[2])));
+            if (!face.is_valid())
+                throw std::runtime_error("cannot simplify: the mesh is not a closed two-manifold");
+        }
+        live_triangles = faces;
+    }
+
+    void build_quadrics() {
+        quadrics.resize(mesh.n_vertices());
+        for (const Triangle& t : original.triangles) {
+            const Vec3d a = mesh.point(VertexHandle(int(t[0])));
+            Vec3d normal =
+                (mesh.point(VertexHandle(int(t[1]))) - a) % (mesh.point(VertexHandle(int(t[2]))) - a);
+            const double doubled_area = normal.norm();
+            if (doubled_area <= 0) continue;
+            normal /= doubled_area;
+            Quadric q(normal[0], normal[1], normal[2], -(normal | a));
+            q *= doubled_area / 2;
+            for (const std::uint32_t corner : t) quadrics[corner] += q;
+        }
+    }
+
+    Placement place(EdgeHandle edge) const {
+        const HalfedgeHandle half = mesh.halfedge_handle(edge, 0);
+        const VertexHandle v0 = mesh.from_vertex_handle(half), v1 = mesh.to_vertex_handle(half);
+        const Vec3d p0 = mesh.point(v0), p1 = mesh.point(v1), middle = (p0 + p1) * 0.5;
+        const double squared_length = (p1 - p0).sqrnorm();
+        Quadric q = quadrics[v0.idx()];
+        q += quadrics[v1.idx()];
+        const double shape = prefer_short_edges * (q.xx() + q.yy() + q.zz()) * squared_length;
+        const Vec3d offset = least(q, middle);
+        Placement best{middle + offset, q(middle + offset)};
+        if (offset.sqrnorm() > 4 * squared_length) { // far off: two planes almost parallel
+            best = {middle, q(middle)};
+            for (const Vec3d& p : {p0, p1})
+                if (const double at = q(p); at < best.cost) best = {p, at};
+        }
+        best.cost = std::max(best.cost, 0.0) + shape;
+        return best;
+    }
+
+    void queue(EdgeHandle edge) {
+        cost[edge.idx()] = place(edge).cost;
+        requeue(edge);
+    }
+    void requeue(EdgeHandle edge) {
+        if (heap.is_stored(edge))
+            heap.update(edge);
+        else
+            heap.insert(edge);
+    }
+
+    void build_heap() {
+        cost.resize(mesh.n_edges());
+        heap_position.assign(mesh.n_edges(), -1);
+        heap.reserve(mesh.n_edges());
+        for (const EdgeHandle edge : mesh.edges()) queue(edge);
+    }
+
+    /// The link condition, and never a tetrahedron: that would leave two triangles back to back.
+    bool keeps_manifold(HalfedgeHandle half) {
+        if (!mesh.is_collapse_ok(half)) return false;
+        const VertexHandle left = mesh.opposite_vh(half);
+        const VertexHandle right = mesh.opposite_vh(mesh.opposite_halfedge_handle(half));
+        return !(mesh.valence(left) == 3 && mesh.valence(right) == 3 &&
+                 mesh.find_halfedge(left, right).is_valid());
+    }
+
+    /// May the triangles around `v`, but for those that hold `other`, be led to `to` instead?
+    bool keeps_shape(VertexHandle v, VertexHandle other, const Vec3d& to) const {
+        const Strictness& rule = strictness[stage];
+        const Vec3d from = mesh.point(v);
+        for (auto half = mesh.cvoh_iter(v); half.is_valid(); ++half) {
+            const VertexHandle b = mesh.to_vertex_handle(*half);
+            const VertexHandle c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*half));
+            if (b == other || c == other) continue;
+            const Vec3d pb = mesh.point(b), pc = mesh.point(c);
+            const Vec3d before = (pb - from) % (pc - from), after = (pb - to) % (pc - to);
+            const double area_before = before.norm(), area_after = after.norm();
+            if ((before | after) < rule.min_cosine * area_before * area_after) return false;
+            const double good = quality(to, pb, pc, area_after);
+            if (good < rule.min_quality && good < quality(from, pb, pc, area_before)) return false;
+        }
+        return true;
+    }
+
+    bool allowed(HalfedgeHandle half, const Vec3d& to) {
+        const VertexHandle v0 = mesh.from_vertex_handle(half), v1 = mesh.to_vertex_handle(half);
+        if (!keeps_manifold(half)) return false;
+        return stage + 1 == std::size(strictness) || (keeps_shape(v0, v1, to) && keeps_shape(v1, v0, to));
+    }
+
+    void collapse(HalfedgeHandle half, const Vec3d& to) {
+        const VertexHandle gone = mesh.from_vertex_handle(half), kept = mesh.to_vertex_handle(half);
+        const auto away = [&](VertexHandle v) {
+            return (inside(original.positions[sources[v.idx()]]) - to).sqrnorm();
+        };
+        if (away(gone) < away(kept)) sources[kept.idx()] = sources[gone.idx()];
+        quadrics[kept.idx()] += quadrics[gone.idx()];
+        mesh.collapse(half);
+        mesh.set_point(kept, to);
+        moved[kept.idx()] = true;
+        live_triangles -= 2;
+        queue_around(kept);
+    }
+
+    /// New costs for the edges at `v`; those beyond that were refused may be allowed now.
+    void queue_around(VertexHandle v) {
+        for (auto edge = mesh.ve_iter(v); edge.is_valid(); ++edge) queue(*edge);
+        for (auto near = mesh.vv_iter(v); near.is_valid(); ++near)
+            for (auto edge = mesh.ve_iter(*near); edge.is_valid(); ++edge)
+                if (!heap.is_stored(*edge)) requeue(*edge);
+    }
+
+    void relax() {
+        ++stage;
+        for (const EdgeHandle edge : mesh.edges()) // skips what is deleted
+            if (!heap.is_stored(edge)) requeue(edge);
+    }
+
+    bool collapse_cheapest() {
+        while (!heap.empty()) {
+            const EdgeHandle edge = heap.front();
+            heap.pop_front();
+            if (mesh.status(edge).deleted()) continue;
+            const Placement placement = place(edge);
+            const HalfedgeHandle half = mesh.halfedge_handle(edge, 0);
+            if (!allowed(half, placement.point)) continue;
+            collapse(half, placement.point);
+            return true;
+        }
+        return false;
+    }
+};
+
+Collapser::Collapser(const Mesh& mesh) : impl(std::make_unique<Impl>(mesh)) {
+    impl->fit_to_unit_cube();
+    impl->build_connectivity();
+    impl->build_quadrics();
+    impl->sources.resize(mesh.positions.size());
+    for (std::uint32_t v = 0; v < impl->sources.size(); ++v) impl->sources[v] = v;
+    impl->moved.assign(mesh.positions.size(), false);
+    impl->build_heap();
+}
+
+Collapser::~Collapser() = default;
+
+std::size_t Collapser::triangles() const { return impl->live_triangles; }
+
+void Collapser::reduce_to(std::size_t triangles) {
+    while (impl->live_triangles > triangles) {
+        if (impl->collapse_cheapest()) continue;
+        if (impl->stage + 1 == std::size(strictness)) return;
+        impl->relax();
+    }
+}
+
+Collapser::Remainder Collapser::remainder() const {
+    constexpr std::uint32_t unused = UINT32_MAX;
+    Remainder result;
+    std::vector<std::uint32_t> renumbered(impl->original.positions.size(), unused);
+    result.triangles.reserve(impl->live_triangles);
+    for (const auto face : impl->mesh.faces()) {
+        Triangle triangle{};
+        std::size_t corner = 0;
+        for (const auto v : impl->mesh.fv_range(face)) {
+            std::uint32_t& number = renumbered[std::size_t(v.idx())];
+            if (number == unused) {
+                number = std::uint32_t(result.positions.size());
+                const Vec3d p = impl->mesh.point(v);
+                result.positions.push_back(impl->moved[std::size_t(v.idx())]
+                                               ? glm::dvec3(p[0], p[1], p[2]) / impl->scale + impl->centre
+                                               : impl->original.positions[std::size_t(v.idx())]);
+                result.sources.push_back(impl->sources[std::size_t(v.idx())]);
+            }
+            triangle[corner++] = number;
+        }
+        result.triangles.push_back(triangle);
+    }
+    return result;
+}
+
+} // namespace glcast
