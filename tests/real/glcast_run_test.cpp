@@ -1,0 +1,224 @@
+// glcast-run against a toy shim: what it refuses before starting anything, what it tells, and what it leaves
+// behind (nothing).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/real/command.h"
+
+namespace glcast::test {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class GlcastRun : public testing::Test {
+  protected:
+    GlcastRun() {
+        fs::create_directories(folder / "tmp");
+        // A duration that no other process has: whatever still sleeps for it afterwards was left behind.
+        nap = "9" + std::to_string(getpid()) + "." + std::to_string(++count);
+    }
+    ~GlcastRun() override { fs::remove_all(folder); }
+
+    CommandResult run(std::vector<std::string> arguments, const std::string& toy_lines = "",
+                      const std::string& toy_process = "sleep",
+                      std::vector<std::pair<std::string, std::string>> more = {}) {
+        arguments.insert(arguments.begin(), GLCAST_RUN);
+        more.insert(more.begin(), {{"GLCAST_LIBRARY", TOY_SHIM},
+                                   {"TMPDIR", folder / "tmp"},
+                                   {"TOY_LINES", toy_lines},
+                                   {"TOY_PROCESS", toy_process}});
+        const CommandResult result = run_command(arguments, 30, more);
+        EXPECT_FALSE(result.timed_out);
+        EXPECT_TRUE(fs::is_empty(folder / "tmp")) << "something was left in the folder for temporary files";
+        EXPECT_FALSE(still_napping()) << "a process of the program was left behind";
+        return result;
+    }
+
+    bool still_napping() const {
+        for (const auto& entry : fs::directory_iterator("/proc")) {
+            std::ifstream file(entry.path() / "cmdline");
+            std::stringstream text;
+            text << file.rdbuf();
+            if (text.str().starts_with("sleep") && text.str().find(nap) != std::string::npos) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void expect_refused(const std::vector<std::string>& options, int exit_code, const std::string& reason) {
+        std::vector<std::string> arguments = options;
+        if (arguments.empty() || arguments.back() != "--") {
+            arguments.insert(arguments.end(), {"--", "touch", folder / "started"});
+        } else {
+            arguments.pop_back();
+        }
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+        EXPECT_THAT(result.err, HasSubstr(reason));
+        EXPECT_THAT(result.err, StartsWith("glcast-run: "));
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_FALSE(fs::exists(folder / "started")) << "the program was started";
+    }
+
+    std::string capture() const { return folder / "a.exr"; }
+
+    fs::path folder = fs::temp_directory_path() / ("glcast-run-test-" + std::to_string(getpid()));
+    std::string nap;
+    static inline int count = 0;
+};
+
+TEST_F(GlcastRun, RefusesWrongUsage) {
+    const std::string unit_twice = "1,0,0,0,0,2,0,0,0,0,1,0,0,0,0,1";
+    expect_refused({"-n", "7"}, 2, "7");
+    expect_refused({"-n", "8193"}, 2, "8193");
+    expect_refused({"-n", "many"}, 2, "many");
+    expect_refused({"--box", "0,0,0,1,1"}, 2, "six numbers");
+    expect_refused({"--box", "0,0,0,1,1,0"}, 2, "must be below");
+    expect_refused({"--box", "0,0,0,1,1,nan"}, 2, "six numbers");
+    expect_refused({"--frame-matrix", "world"}, 2, "16 numbers");
+    expect_refused({"--frame-matrix", unit_twice}, 2, "uniform scale");
+    expect_refused({"--frame", "0"}, 2, "0");
+    expect_refused({"--frame", "2", "--after", "1"}, 2, "excludes");
+    expect_refused({"--normals", "eight"}, 2, "eight");
+    expect_refused({"--no-such-option"}, 2, "--no-such-option");
+    expect_refused({"--"}, 2, "no PROGRAM");
+}
+
+TEST_F(GlcastRun, RefusesWhatCannotWork) {
+    expect_refused({"-o", folder / "no/such/folder/a.exr"}, 1, "cannot write");
+    expect_refused({"-o", folder}, 1, "it is a folder");
+    expect_refused({"-o", "/proc/a.exr"}, 1, "cannot write");
+    expect_refused({"-o", capture(), "no-such-program-here", "--"}, 1, "no such program");
+    expect_refused({"-o", capture(), STATIC_PROGRAM, "--"}, 1, "linked statically");
+    std::ofstream(folder / "text") << "just text\n";
+    chmod((folder / "text").c_str(), 0755);
+    expect_refused({"-o", capture(), folder / "text", "--"}, 1, "neither a program nor a script");
+    EXPECT_FALSE(fs::exists(capture()));
+}
+
+TEST_F(GlcastRun, RefusesSetuidPrograms) {
+    std::string program = "/usr/bin/passwd";
+    if (geteuid() == 0) { // what belongs to root gains nothing when root runs it
+        program = folder / "borrowed";
+        fs::copy_file("/usr/bin/true", program);
+        ASSERT_EQ(chown(program.c_str(), 1, 1), 0);
+        ASSERT_EQ(chmod(program.c_str(), 04755), 0);
+    }
+    expect_refused({"-o", capture(), program, "--"}, 1, "setuid");
+}
+
+TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;casting 3;captured 3 a.exr");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("frame 3 of sleep is cast in " + capture()));
+    EXPECT_TRUE(fs::exists(capture()));
+}
+
+TEST_F(GlcastRun, NamesTheCaptureAfterTheProgram) {
+    const CommandResult result =
+        run({"--quit", "--", "/usr/bin/env", "printenv", "GLCAST_OUT"}, "hooked GLX");
+    EXPECT_EQ(result.out, (fs::current_path() / "env.exr").string() + "\n");
+}
+
+TEST_F(GlcastRun, EndsAProgramThatIgnoresTheRequest) {
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", "sh", "-c", "trap '' TERM; exec sleep " + nap},
+            "hooked GLX;captured 1 a.exr");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(GlcastRun, EndsEverythingTheProgramStarted) {
+    const std::string script = "sleep " + nap + " & setsid sleep " + nap + " & exec sleep " + nap;
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", "sh", "-c", script}, "hooked GLX;captured 1 a.exr");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(GlcastRun, FollowsALauncherToItsChild) {
+    const CommandResult result =
+        run({"-o", capture(), "--", "sh", "-c", "(sleep 0.2; date > /dev/null) & exit 0"},
+            "hooked EGL;captured 5 a.exr", "date");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(GlcastRun, SaysWhatWasSeenInstead) {
+    const auto why = [&](const std::string& lines, const std::vector<std::string>& program) {
+        std::vector<std::string> arguments = {"--quit", "--timeout", "0.5", "-o", capture(), "--"};
+        arguments.insert(arguments.end(), program.begin(), program.end());
+        const CommandResult result = run(arguments, lines, program[0]);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_FALSE(fs::exists(capture()));
+        return result.err;
+    };
+    EXPECT_EQ(why("", {"true"}), "glcast-run: no GL seen: the program ended\n");
+    EXPECT_EQ(why("", {"sleep", nap}), "glcast-run: no GL seen: gave up after 0.5 s\n");
+    EXPECT_THAT(why("hooked GLX", {"true"}), HasSubstr("GLX seen, but no whole frame"));
+    EXPECT_THAT(why("hooked EGL;frames 1;frames 8", {"sleep", nap}),
+                HasSubstr("8 frames or more seen through EGL, none with solid geometry"));
+    EXPECT_THAT(why("hooked GLX;casting 2", {"true"}), HasSubstr("the capture of frame 2 was not complete"));
+    EXPECT_EQ(why("hooked GLX;failed no framebuffer objects", {"sleep", nap}),
+              "glcast-run: no framebuffer objects\n");
+}
+
+TEST_F(GlcastRun, PassesOnCtrlC) {
+    const CommandResult result =
+        run({"-o", capture(), "--", "sh", "-c", "kill -INT $PPID; exec sleep " + nap}, "hooked GLX");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("interrupted"));
+}
+
+TEST_F(GlcastRun, ListsGroupsOnStandardOutput) {
+    const CommandResult result =
+        run({"--list", "--", "sleep", nap}, "hooked GLX;group 1 three gears;group 2 a wall;listed 1");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "1 three gears\n2 a wall\n");
+}
+
+TEST_F(GlcastRun, HandsItsOptionsToTheShim) {
+    const CommandResult result = run({"-n", "64", "--normals", "six", "--box", "0,0,0,1,1,1", "--group", "2",
+                                      "--frame", "7", "-o", capture(), "--", "env"});
+    for (const char* variable : {"GLCAST_N=64\n", "GLCAST_NORMALS=six\n", "GLCAST_BOX=0,0,0,1,1,1\n",
+                                 "GLCAST_GROUP=2\n", "GLCAST_FRAME=7\n"}) {
+        EXPECT_THAT(result.out, HasSubstr(variable));
+    }
+    EXPECT_THAT(result.out, Not(HasSubstr("GLCAST_QUIT")));
+    EXPECT_THAT(result.out, HasSubstr("GLCAST_OUT=" + capture()));
+}
+
+TEST_F(GlcastRun, KeepsOtherPreloads) {
+    const CommandResult result =
+        run({"-o", capture(), "--", "printenv", "LD_PRELOAD"}, "", "", {{"LD_PRELOAD", "libm.so.6"}});
+    EXPECT_EQ(result.out, std::string(TOY_SHIM) + ":libm.so.6\n");
+}
+
+TEST_F(GlcastRun, PreloadsFromAFolderWithASpace) {
+    fs::create_directories(folder / "a b");
+    fs::copy_file(TOY_SHIM, folder / "a b/libglcast.so");
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;captured 1 a.exr", "sleep",
+            {{"GLCAST_LIBRARY", folder / "a b/libglcast.so"}});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(GlcastRun, BringsItsOwnScreenAndTakesItAway) {
+    const CommandResult result = run({"--headless", "-o", capture(), "--", "sh", "-c",
+                                      "echo $DISPLAY; test -S /tmp/.X11-unix/X${DISPLAY#:} && echo there"});
+    ASSERT_THAT(result.out, StartsWith(":")) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("there"));
+    const std::string display = result.out.substr(1, result.out.find('\n') - 1);
+    EXPECT_FALSE(fs::exists("/tmp/.X11-unix/X" + display));
+}
+
+} // namespace
+} // namespace glcast::test

@@ -1,0 +1,145 @@
+#include "tools/run/checks.h"
+
+#include <elf.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/xattr.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+namespace glcast::run {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int error) { return std::strerror(error); }
+
+bool gains_privileges(const fs::path& program, const struct stat& status) {
+    const bool other_user = (status.st_mode & S_ISUID) != 0 && status.st_uid != geteuid();
+    const bool other_group = (status.st_mode & S_ISGID) != 0 && status.st_gid != getegid();
+    return other_user || other_group || getxattr(program.c_str(), "security.capability", nullptr, 0) > 0;
+}
+
+/// The file's interpreter when it is a script.
+std::optional<std::string> script_interpreter(std::ifstream& file) {
+    std::string line;
+    file.seekg(0);
+    std::getline(file, line);
+    if (!line.starts_with("#!")) {
+        return std::nullopt;
+    }
+    std::istringstream words(line.substr(2));
+    std::string interpreter;
+    words >> interpreter;
+    return interpreter;
+}
+
+std::string check_elf(std::ifstream& file, const std::string& name) {
+    Elf64_Ehdr header{};
+    file.clear();
+    file.seekg(0);
+    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) ||
+        std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) {
+        return name + " is neither a program nor a script that names its interpreter";
+    }
+    constexpr int our_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+    Elf64_Ehdr ours{};
+    std::ifstream("/proc/self/exe", std::ios::binary).read(reinterpret_cast<char*>(&ours), sizeof ours);
+    if (header.e_ident[EI_CLASS] != our_class || header.e_machine != ours.e_machine) {
+        return name + " is for another kind of processor than this glcast (32-bit?), so the library cannot "
+                      "be preloaded";
+    }
+    for (int i = 0; i < header.e_phnum; ++i) {
+        Elf64_Phdr segment{};
+        file.seekg(static_cast<std::streamoff>(header.e_phoff + std::uint64_t(i) * header.e_phentsize));
+        if (file.read(reinterpret_cast<char*>(&segment), sizeof segment) && segment.p_type == PT_INTERP) {
+            return {};
+        }
+    }
+    return name +
+           " is linked statically: it has no loader that could preload a library, so it cannot be cast";
+}
+
+} // namespace
+
+std::string check_output(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) {
+        return "cannot write " + file.string() + ": it is a folder";
+    }
+    if (fs::exists(file, ignored) && access(file.c_str(), W_OK) != 0) {
+        return "cannot write " + file.string() + ": " + reason(errno);
+    }
+    // Permission bits do not tell the truth to root nor on a read-only file system, so try.
+    std::string trial = (file.parent_path() / ".glcast-XXXXXX").string();
+    const int descriptor = mkstemp(trial.data());
+    if (descriptor < 0) {
+        return "cannot write " + file.string() + ": " + reason(errno);
+    }
+    close(descriptor);
+    unlink(trial.c_str());
+    return {};
+}
+
+std::string check_program(const fs::path& program) {
+    struct stat status {};
+    if (stat(program.c_str(), &status) != 0) {
+        return "cannot run " + program.string() + ": " + reason(errno);
+    }
+    if (!S_ISREG(status.st_mode) || access(program.c_str(), X_OK) != 0) {
+        return "cannot run " + program.string() + ": it is not a program that you may run";
+    }
+    if (gains_privileges(program, status)) {
+        return program.string() + " is setuid, setgid or has capabilities: the loader ignores preloads "
+                                  "there, so it cannot be cast";
+    }
+    std::ifstream file(program, std::ios::binary);
+    if (!file) {
+        return {}; // may be run but not read: leave it to the loader
+    }
+    const auto interpreter = script_interpreter(file);
+    if (interpreter && *interpreter != program) {
+        return check_program(*interpreter);
+    }
+    return check_elf(file, program.string());
+}
+
+fs::path find_program(const std::string& name) {
+    if (name.find('/') != std::string::npos) {
+        return name;
+    }
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path candidate = fs::path(folder.empty() ? "." : folder) / name;
+        std::error_code ignored;
+        if (fs::is_regular_file(candidate, ignored) && access(candidate.c_str(), X_OK) == 0) {
+            return candidate;
+        }
+    }
+    return {};
+}
+
+fs::path find_shim() {
+    std::error_code ignored;
+    if (const char* given = std::getenv("GLCAST_LIBRARY"); given != nullptr && *given != '\0') {
+        return fs::is_regular_file(given, ignored) ? fs::absolute(given) : fs::path();
+    }
+    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+    for (const char* folder :
+         {"", GLCAST_SHIM_FROM_BUILD, GLCAST_SHIM_FROM_INSTALL, "../lib", "../lib/glcast"}) {
+        const fs::path candidate = (here / folder / "libglcast.so").lexically_normal();
+        if (fs::is_regular_file(candidate, ignored)) {
+            return candidate;
+        }
+    }
+    return {};
+}
+
+} // namespace glcast::run

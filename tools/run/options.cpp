@@ -1,0 +1,198 @@
+#include "tools/run/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "capture/view.h"
+
+namespace glcast::run {
+namespace {
+
+constexpr double default_quit_timeout_seconds = 120;
+
+std::optional<std::vector<double>> numbers(const std::string& text, std::size_t count) {
+    std::vector<double> values;
+    std::stringstream fields(text);
+    for (std::string field; std::getline(fields, field, ',');) {
+        std::size_t used = 0;
+        double value = 0;
+        try {
+            value = std::stod(field, &used);
+        } catch (const std::exception&) {
+            return std::nullopt;
+        }
+        if (used != field.size() || !std::isfinite(value)) {
+            return std::nullopt;
+        }
+        values.push_back(value);
+    }
+    return values.size() == count && text.back() != ',' ? std::optional(values) : std::nullopt;
+}
+
+std::string check_box(const std::string& text) {
+    const auto v = numbers(text, 6);
+    if (!v) {
+        return "needs six numbers: x0,y0,z0,x1,y1,z1";
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!((*v)[axis] < (*v)[axis + 3])) {
+            return "x0,y0,z0 must be below x1,y1,z1";
+        }
+    }
+    return {};
+}
+
+/// Rotation, uniform scale and translation only: anything else would bend the normals and the lattice.
+bool is_similarity(const std::vector<double>& m) {
+    const auto dot = [&](int a, int b) {
+        return m[4 * a] * m[4 * b] + m[4 * a + 1] * m[4 * b + 1] + m[4 * a + 2] * m[4 * b + 2];
+    };
+    const double scale = dot(0, 0), slack = 1e-4 * scale;
+    const bool affine = m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+    const bool orthogonal =
+        std::abs(dot(0, 1)) <= slack && std::abs(dot(0, 2)) <= slack && std::abs(dot(1, 2)) <= slack;
+    return affine && scale > 0 && orthogonal && std::abs(dot(1, 1) - scale) <= slack &&
+           std::abs(dot(2, 2) - scale) <= slack;
+}
+
+std::string check_frame_matrix(const std::string& text) {
+    if (text == "eye" || text == "base") {
+        return {};
+    }
+    const auto m = numbers(text, 16);
+    if (!m) {
+        return "needs eye, base or 16 numbers with commas between, column by column";
+    }
+    return is_similarity(*m)
+               ? ""
+               : "the 16 numbers must be rotation, uniform scale and translation, column by column";
+}
+
+class HelpFormat : public CLI::Formatter {
+    std::string make_usage(const CLI::App*, std::string) const override {
+        return "Usage: glcast-run [OPTIONS] -- PROGRAM [ARGS...]\n";
+    }
+};
+
+void declare(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.output, "Capture to write (default: PROGRAM.exr here)")
+        ->envname("GLCAST_OUT");
+    app.add_option("-n,--resolution", o.n, "Samples along each axis")
+        ->envname("GLCAST_N")
+        ->check(CLI::Range(min_resolution, max_resolution))
+        ->capture_default_str();
+    auto* frame = app.add_option("--frame", o.frame,
+                                 "Cast frame N, counted from 1 (default: the first with solid geometry)")
+                      ->envname("GLCAST_FRAME")
+                      ->check(CLI::Range(1L, 1'000'000'000L));
+    app.add_option("--after", o.after_seconds, "Cast the first frame after so many seconds")
+        ->envname("GLCAST_AFTER")
+        ->check(CLI::Range(0.0, 1e6))
+        ->excludes(frame);
+    app.add_option("--normals", o.normals, "signed: one render; six: the paper's six renders")
+        ->envname("GLCAST_NORMALS")
+        ->check(CLI::IsMember({"signed", "six"}))
+        ->capture_default_str();
+    app.add_option("--box", o.box, "x0,y0,z0,x1,y1,z1 in the capture frame (default: found by drawing)")
+        ->envname("GLCAST_BOX")
+        ->check(check_box);
+    app.add_option("--frame-matrix", o.frame_matrix,
+                   "eye, base or 16 numbers, column by column: eye space to capture frame")
+        ->envname("GLCAST_FRAME_MATRIX")
+        ->check(check_frame_matrix);
+    app.add_option("--group", o.group, "Cast group K of --list (default: the one with most triangles)")
+        ->envname("GLCAST_GROUP")
+        ->check(CLI::Range(1, 1'000'000));
+    app.add_flag("--list", o.list,
+                 "Print the groups of the frame instead of casting it, then end the program")
+        ->envname("GLCAST_LIST");
+    app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
+    app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
+    app.add_option("--timeout", o.timeout_seconds,
+                   "Give up and end the program after so many seconds (default: " +
+                       std::to_string(static_cast<int>(default_quit_timeout_seconds)) +
+                       " with --quit or --headless, else never)")
+        ->check(CLI::Range(0.001, 1e6));
+    app.set_version_flag("--version", "glcast-run " GLCAST_VERSION);
+    app.footer("Exit status: 0 captured, 1 not captured (one line says why), 2 wrong usage.");
+    app.formatter(std::make_shared<HelpFormat>());
+    app.prefix_command();
+}
+
+Parsed usage(const std::string& what) {
+    std::cerr << "glcast-run: " << what << " (see glcast-run --help)\n";
+    return Parsed::usage_error;
+}
+
+} // namespace
+
+Parsed parse_options(int argc, const char* const* argv, Options& options) {
+    const auto dashes = std::find(argv + std::min(argc, 1), argv + argc, std::string_view("--"));
+    CLI::App app(
+        "Run PROGRAM unchanged and cast one frame of what it draws with OpenGL into a capture (.exr).",
+        "glcast-run");
+    declare(app, options);
+    try {
+        app.parse(static_cast<int>(dashes - argv), argv);
+    } catch (const CLI::Success& help) {
+        app.exit(help);
+        return Parsed::done;
+    } catch (const CLI::ParseError& error) {
+        return usage(error.what());
+    }
+    options.program = app.remaining();
+    if (!options.program.empty() && options.program[0].starts_with('-')) {
+        return usage("unknown option " + options.program[0]);
+    }
+    if (dashes != argv + argc) {
+        // Without dashes of ours, those belong to the program: glcast-run prog -- x
+        options.program.insert(options.program.end(), dashes + (options.program.empty() ? 1 : 0),
+                               argv + argc);
+    }
+    if (options.program.empty()) {
+        return usage("no PROGRAM given");
+    }
+    options.quit |= options.list;
+    if (options.timeout_seconds == 0 && (options.quit || options.headless)) {
+        options.timeout_seconds = default_quit_timeout_seconds;
+    }
+    if (options.list) {
+        options.output.clear();
+        return Parsed::run;
+    }
+    if (options.output.empty()) {
+        options.output = std::filesystem::path(options.program[0]).filename().string() + ".exr";
+    }
+    options.output = std::filesystem::absolute(options.output).lexically_normal();
+    return Parsed::run;
+}
+
+std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o,
+                                                                const std::filesystem::path& status_pipe) {
+    const auto number = [](double value) {
+        std::ostringstream text;
+        text << value;
+        return text.str();
+    };
+    return {
+        {"GLCAST_OUT", o.output},
+        {"GLCAST_N", std::to_string(o.n)},
+        {"GLCAST_FRAME", o.frame > 0 ? std::to_string(o.frame) : ""},
+        {"GLCAST_AFTER", o.after_seconds > 0 ? number(o.after_seconds) : ""},
+        {"GLCAST_NORMALS", o.normals},
+        {"GLCAST_BOX", o.box},
+        {"GLCAST_FRAME_MATRIX", o.frame_matrix},
+        {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},
+        {"GLCAST_LIST", o.list ? "1" : ""},
+        {"GLCAST_QUIT", o.quit ? "1" : ""},
+        {"GLCAST_STATUS", status_pipe},
+    };
+}
+
+} // namespace glcast::run

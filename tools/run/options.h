@@ -1,0 +1,38 @@
+// What glcast-run was asked to do. Every option of the capture is also a GLCAST_ variable, which is how the
+// shim gets it.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glcast::run {
+
+struct Options {
+    std::string output; ///< absolute; empty with `list`
+    int n = 512;
+    long frame = 0;           ///< 0: the first with solid geometry
+    double after_seconds = 0; ///< 0: at once
+    std::string normals = "signed";
+    std::string box;          ///< x0,y0,z0,x1,y1,z1, or empty
+    std::string frame_matrix; ///< eye, base, 16 numbers, or empty
+    int group = 0;            ///< from 1; 0: the one with most triangles
+    bool headless = false;
+    bool quit = false; ///< end the program after the capture; `list` implies it
+    bool list = false;
+    double timeout_seconds = 0;       ///< 0: no limit
+    std::vector<std::string> program; ///< name and arguments
+};
+
+enum class Parsed { run, done, usage_error };
+
+/// Reads the command line, with GLCAST_ variables as defaults; prints help, version and usage errors itself.
+/// Everything in `options` is in its range after `Parsed::run`; whether files and programs exist is not
+/// looked at here.
+Parsed parse_options(int argc, const char* const* argv, Options& options);
+
+/// The GLCAST_ variables for the shim. An empty value means: unset it.
+std::vector<std::pair<std::string, std::string>> shim_variables(const Options& options,
+                                                                const std::filesystem::path& status_pipe);
+
+} // namespace glcast::run

@@ -1,0 +1,173 @@
+#include "tools/run/process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace glcast::run {
+namespace {
+
+sigset_t taken_signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (int number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) {
+        sigaddset(&set, number);
+    }
+    return set;
+}
+
+/// Blocks until a child changes state or the time is over. SIGCHLD is blocked (take_signals), so none is
+/// missed.
+void wait_for_child_event(int timeout_ms) {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGCHLD);
+    const timespec limit{timeout_ms / 1000, timeout_ms % 1000 * 1'000'000L};
+    sigtimedwait(&set, nullptr, &limit);
+}
+
+int remaining_ms(std::chrono::steady_clock::time_point deadline) {
+    using namespace std::chrono;
+    return static_cast<int>(
+        std::max<long long>(0, ceil<milliseconds>(deadline - steady_clock::now()).count()));
+}
+
+pid_t parent_of(const std::filesystem::path& process_folder) {
+    std::ifstream file(process_folder / "stat");
+    std::string text;
+    std::getline(file, text);
+    const auto name_end = text.rfind(')'); // the name may hold anything
+    return name_end == std::string::npos ? -1 : static_cast<pid_t>(std::atoi(text.c_str() + name_end + 4));
+}
+
+/// Children of ours other than `spared`: what the program started and orphaned, in whatever session.
+std::vector<pid_t> adopted(pid_t spared) {
+    std::vector<pid_t> found;
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", gone)) {
+        const pid_t pid = std::atoi(entry.path().filename().c_str());
+        if (pid > 0 && pid != spared && parent_of(entry.path()) == getpid()) {
+            found.push_back(pid);
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+int take_signals() {
+    const sigset_t set = taken_signals();
+    sigprocmask(SIG_BLOCK, &set, nullptr);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    return signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+void unblock_signals() {
+    const sigset_t set = taken_signals();
+    sigprocmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+void end_process(pid_t pid, int grace_ms) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(grace_ms);
+    kill(pid, SIGTERM);
+    for (int left = grace_ms; left > 0; left = remaining_ms(deadline)) {
+        const pid_t ended = waitpid(pid, nullptr, WNOHANG);
+        if (ended == pid || (ended < 0 && errno == ECHILD)) {
+            return;
+        }
+        wait_for_child_event(left);
+    }
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+}
+
+std::string Program::start(const std::string& file, const std::vector<std::string>& arguments,
+                           const Environment& changes) {
+    int trouble[2];
+    if (pipe2(trouble, O_CLOEXEC) != 0) {
+        return "cannot make a pipe";
+    }
+    leader = fork();
+    if (leader == 0) {
+        setsid();
+        unblock_signals();
+        for (const auto& [name, value] : changes) {
+            value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
+        }
+        std::vector<char*> argv;
+        for (const std::string& argument : arguments) {
+            argv.push_back(const_cast<char*>(argument.c_str()));
+        }
+        argv.push_back(nullptr);
+        execv(file.c_str(), argv.data());
+        const int error = errno;
+        [[maybe_unused]] const auto told = write(trouble[1], &error, sizeof error);
+        _exit(127);
+    }
+    close(trouble[1]);
+    int error = 0; // the pipe closes without a word when exec went well
+    const bool failed = leader < 0 || read(trouble[0], &error, sizeof error) == sizeof error;
+    close(trouble[0]);
+    return failed ? "cannot run " + file + ": " + std::strerror(error != 0 ? error : errno) : std::string();
+}
+
+void Program::reap() {
+    int ended_status = 0;
+    for (pid_t ended; (ended = waitpid(-1, &ended_status, WNOHANG)) > 0;) {
+        if (ended == leader) {
+            status = ended_status;
+        }
+    }
+}
+
+bool Program::alive() const { return leader > 0 && kill(-leader, 0) == 0; }
+
+void Program::signal(int number) const {
+    if (leader > 0) {
+        kill(-leader, number);
+    }
+}
+
+void Program::kill_strays() {
+    for (auto strays = adopted(spared); !strays.empty(); strays = adopted(spared)) {
+        for (pid_t pid : strays) {
+            kill(pid, SIGKILL);
+        }
+        wait_for_child_event(100);
+        reap();
+    }
+}
+
+void Program::end(int grace_ms) {
+    if (leader <= 0) {
+        return;
+    }
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(grace_ms);
+    signal(SIGTERM);
+    signal(SIGCONT); // a stopped process takes no SIGTERM
+    for (reap(); alive(); reap()) {
+        const int left = remaining_ms(deadline);
+        if (left == 0) {
+            signal(SIGKILL);
+        }
+        wait_for_child_event(left == 0 ? 100 : left);
+    }
+    if (end_strays) {
+        kill_strays();
+    }
+    leader = -1;
+}
+
+} // namespace glcast::run

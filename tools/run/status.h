@@ -1,0 +1,51 @@
+// What the shim tells (docs/status-lines.md), and the pipe it comes through.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace glcast::run {
+
+/// What is known of the program's drawing so far.
+struct Seen {
+    std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
+    long frames = 0;     ///< at least so many have ended without a cast
+    std::string refused; ///< why a frame could not be recorded, the last one
+    long casting = 0;    ///< the frame being cast
+    bool captured = false;
+    long captured_frame = 0;
+    std::string failed;
+    std::vector<std::string> groups;
+    bool listed = false;
+
+    bool finished() const { return captured || listed || !failed.empty(); }
+};
+
+/// Takes one line in; kinds that are not known are skipped.
+void take_line(const std::string& line, Seen& seen);
+
+/// Why there is no capture, in one line. `ending` says how the wait ended: "the program ended", "after 120
+/// s".
+std::string describe_failure(const Seen& seen, const std::string& ending);
+
+/// A named pipe in a folder of its own, both gone with it. The folder also holds what else a run needs.
+class StatusPipe {
+  public:
+    StatusPipe();
+    ~StatusPipe();
+    StatusPipe(const StatusPipe&) = delete;
+    StatusPipe& operator=(const StatusPipe&) = delete;
+
+    bool ok() const { return descriptor >= 0; }
+    int file_descriptor() const { return descriptor; }
+    std::filesystem::path path() const { return folder / "status"; }
+    const std::filesystem::path& scratch() const { return folder; }
+    void read_into(Seen& seen); ///< all lines there are, without blocking
+
+  private:
+    std::filesystem::path folder;
+    int descriptor = -1;
+    std::string unfinished;
+};
+
+} // namespace glcast::run
