@@ -13,8 +13,8 @@ struct Capture {
     std::size_t file_bytes = 0;
 };
 
-/// Throws std::runtime_error with one clear line when the file is missing, truncated, foreign, of a newer format
-/// version, or lacks a part. Never allocates more than the header honestly asks for.
+/// Throws std::runtime_error with one clear line when the file is missing, truncated, foreign, of a newer
+/// format version, or lacks a part. Never allocates more than the header honestly asks for.
 Capture read_capture(const std::filesystem::path& path);
 
 /// True when the file starts like OpenEXR.

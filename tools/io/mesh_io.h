@@ -7,14 +7,15 @@
 
 namespace glcast {
 
-/// All levels of a file, finest first (one for .obj, .ply, .off, .stl). Colours come back as drawn: .glb holds linear
-/// light, converted on the way. Throws std::runtime_error, one line, on anything unreadable.
+/// All levels of a file, finest first (one for .obj, .ply, .off, .stl). Colours come back as drawn: .glb
+/// holds linear light, converted on the way. Throws std::runtime_error, one line, on anything unreadable.
 std::vector<Level> read_levels(const std::filesystem::path& path);
 Mesh read_mesh(const std::filesystem::path& path); ///< level 0
 
-/// By extension. .glb: all levels in one file, level 0 shown, the others beside it by MSFT_lod, measured errors in
-/// `extras`; the other formats hold one level, so more levels go to NAME.lod1.EXT, ... Written to temporary names and
-/// renamed. Throws std::runtime_error. Returns the files written.
-std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels);
+/// By extension. .glb: all levels in one file, level 0 shown, the others beside it by MSFT_lod, measured
+/// errors in `extras`; the other formats hold one level, so more levels go to NAME.lod1.EXT, ... Written to
+/// temporary names and renamed. Throws std::runtime_error. Returns the files written.
+std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
+                                                std::span<const Level> levels);
 
 } // namespace glcast

@@ -1,0 +1,287 @@
+#include "capture/capture_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <exception>
+
+#include "capture/exr_compress.h"
+#include "capture/exr_header.h"
+#include "capture/output_file.h"
+
+namespace glcast {
+namespace {
+
+using exr::Bytes;
+
+constexpr exr::Compression compression = exr::Compression::zip; // why: docs/capture-format.md
+
+// Alphabetical, as OpenEXR stores them. Half normals would be off by 0.02 degrees, float ones are not (docs).
+const exr::Channel channel_table[] = {{"A", true},    {"B", true},    {"G", true},
+                                      {"N.V", true},  {"N.X", false}, {"N.Y", false},
+                                      {"N.Z", false}, {"R", true},    {"Z", false}};
+constexpr int channel_count = std::size(channel_table);
+
+struct Part {
+    View view;
+    int covered = 0, with_normal = 0;    ///< pixels
+    std::vector<std::uint64_t> chunk_at; ///< file offset of each chunk
+};
+
+int chunks_per_part(int n) {
+    const int lines = exr::lines_per_chunk(compression);
+    return (n + lines - 1) / lines;
+}
+
+void add_channels(Bytes& to) {
+    Bytes list;
+    for (const exr::Channel& channel : channel_table) {
+        list.text(channel.name);
+        list.u32(channel.half ? 1 : 2);
+        list.u32(0); // linear flag and padding
+        list.u32(1); // sampling
+        list.u32(1);
+    }
+    list.data.push_back(0);
+    to.text("channels");
+    to.text("chlist");
+    to.u32(static_cast<std::uint32_t>(list.data.size()));
+    to.raw(list.data.data(), list.data.size());
+}
+
+void add_standard(Bytes& to, const CaptureInfo& info, const std::string& name) {
+    add_channels(to);
+    exr::add_int(to, "chunkCount", chunks_per_part(info.n));
+    exr::add_byte(to, "compression", "compression", static_cast<unsigned char>(compression));
+    exr::add_box2i(to, "dataWindow", 0, 0, info.n - 1, info.n - 1);
+    exr::add_box2i(to, "displayWindow", 0, 0, info.n - 1, info.n - 1);
+    exr::add_byte(to, "lineOrder", "lineOrder", 0);
+    exr::add_string(to, "name", name);
+    exr::add_float(to, "pixelAspectRatio", 1);
+    exr::add_v2f(to, "screenWindowCenter", 0, 0);
+    exr::add_float(to, "screenWindowWidth", 1);
+    exr::add_string(to, "type", "scanlineimage");
+}
+
+void add_capture(Bytes& to, const CaptureInfo& info) {
+    exr::add_int(to, "glcast.format", capture_format_version);
+    exr::add_int(to, "glcast.n", info.n);
+    exr::add_v3d(to, "glcast.boxLo", &info.box.lo.x);
+    exr::add_double(to, "glcast.boxSize", info.box.size);
+    double rows[16]; // glm keeps columns
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) rows[r * 4 + c] = info.eye_to_capture[c][r];
+    exr::add_m44d(to, "glcast.eyeToCapture", rows);
+    exr::add_string(to, "glcast.program", info.program);
+    exr::add_int(to, "glcast.frame", static_cast<int>(std::min<long>(info.frame, INT32_MAX)));
+    exr::add_string(to, "glcast.renderer", info.renderer);
+    exr::add_string(to, "glcast.normals", info.normals);
+    exr::add_string(to, "glcast.version", info.glcast_version);
+    std::vector<std::string> counts;
+    for (const auto& [what, count] : info.not_understood)
+        counts.push_back(std::to_string(count) + " " + what);
+    exr::add_strings(to, "glcast.notUnderstood", counts);
+}
+
+void add_part(Bytes& to, const CaptureInfo& info, const Part& part, const std::string& name) {
+    add_standard(to, info, name);
+    add_capture(to, info);
+    exr::add_string(to, "glcast.axis", std::string(1, "xyz"[static_cast<int>(part.view.axis)]));
+    exr::add_string(to, "glcast.side", part.view.side == Side::minus ? "-" : "+");
+    exr::add_int(to, "glcast.layer", part.view.layer);
+    exr::add_int(to, "glcast.covered", part.covered);
+    exr::add_int(to, "glcast.withNormal", part.with_normal);
+    to.data.push_back(0);
+}
+
+Bytes all_headers(const CaptureInfo& info, const std::vector<Part>& parts) {
+    Bytes bytes;
+    bytes.u32(exr::magic);
+    bytes.u32(exr::version_multipart);
+    for (const Part& part : parts) add_part(bytes, info, part, part_name(part.view));
+    bytes.data.push_back(0);
+    return bytes;
+}
+
+/// Room for the headers of any views: only the digits of the layer differ, and layers are fewer than parts.
+std::size_t room_for_headers(const CaptureInfo& info, int parts) {
+    Part longest;
+    longest.view.layer = std::max(parts - 1, 9);
+    return all_headers(info, std::vector<Part>(parts, longest)).data.size();
+}
+
+float tame(float value, float lo, float hi) { return std::isnan(value) ? 0.0f : std::clamp(value, lo, hi); }
+
+/// A normal's component without the last 8 bits of its mantissa, which are noise: off by 0.001 degree at
+/// most, and the file is a seventh smaller.
+float rounded(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    return std::bit_cast<float>((bits + 0x80u) & ~0xffu);
+}
+
+/// The channels of image row `row`, in the order of channel_table; what GL may leave odd is made plain here:
+/// nothing that is not a number, colours and depths in 0..1, nothing but background where nothing was drawn.
+void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<float>>& planes, Part& part) {
+    const int n = image.n;
+    for (int column = 0; column < n; ++column) {
+        const std::size_t from = static_cast<std::size_t>(row) * n + column,
+                          to = static_cast<std::size_t>(line) * n + column;
+        const bool covered = image.covered(from) && std::isfinite(image.depth[from]);
+        const glm::vec4 colour = covered ? image.colour[from] : glm::vec4(0), normal = image.normal[from];
+        const bool valid = covered && normal.w > 0 && std::isfinite(normal.x) && std::isfinite(normal.y) &&
+                           std::isfinite(normal.z);
+        const float values[channel_count] = {covered ? 1.0f : 0.0f,
+                                             tame(colour.b, 0, 1),
+                                             tame(colour.g, 0, 1),
+                                             valid ? 1.0f : 0.0f,
+                                             valid ? rounded(normal.x) : 0.0f,
+                                             valid ? rounded(normal.y) : 0.0f,
+                                             valid ? rounded(normal.z) : 0.0f,
+                                             tame(colour.r, 0, 1),
+                                             covered ? std::clamp(image.depth[from], 0.0f, 1.0f)
+                                                     : ViewImage::background(image.view.side)};
+        for (int c = 0; c < channel_count; ++c) planes[c][to] = values[c];
+        part.covered += covered;
+        part.with_normal += valid;
+    }
+}
+
+} // namespace
+
+std::string part_name(const View& view) {
+    return std::string(view.side == Side::minus ? "-" : "+") + "xyz"[static_cast<int>(view.axis)] + "." +
+           std::to_string(view.layer);
+}
+
+struct CaptureWriter::Impl {
+    CaptureInfo info;
+    std::size_t expected;
+    OutputFile file;
+    std::vector<Part> parts;
+    std::size_t header_room = 0;
+    std::string error;
+
+    Impl(std::string path, const CaptureInfo& capture, int part_count)
+        : info(capture), expected(static_cast<std::size_t>(std::max(part_count, 0))), file(std::move(path)) {}
+
+    bool fail(std::string why) {
+        if (error.empty()) error = std::move(why);
+        return false;
+    }
+    bool file_failed() { return fail(file.error()); }
+
+    bool start();
+    bool why_not(const ViewImage& image);
+    bool add(const ViewImage& image);
+    bool write_chunks(const std::vector<exr::Chunk>& chunks, Part& part);
+    bool finish();
+};
+
+bool CaptureWriter::Impl::start() {
+    if (!file.error().empty()) return file_failed();
+    if (info.n < min_resolution || info.n > max_resolution)
+        return fail("n must be from 8 to 8192, not " + std::to_string(info.n));
+    if (!(info.box.size > 0) || !std::isfinite(info.box.size)) return fail("the box is empty");
+    if (expected == 0) return fail("a capture needs at least one view");
+    header_room = room_for_headers(info, static_cast<int>(expected));
+    const std::size_t tables = expected * static_cast<std::size_t>(chunks_per_part(info.n)) * 8;
+    return file.skip_to(header_room + tables) || file_failed();
+}
+
+bool CaptureWriter::Impl::why_not(const ViewImage& image) {
+    const std::size_t pixels = static_cast<std::size_t>(info.n) * static_cast<std::size_t>(info.n);
+    const std::string name = part_name(image.view);
+    if (image.n != info.n || image.depth.size() != pixels || image.colour.size() != pixels ||
+        image.normal.size() != pixels)
+        return fail("view " + name + " has the wrong size");
+    if (parts.size() == expected) return fail("more views than announced");
+    for (const Part& part : parts)
+        if (part.view == image.view) return fail("view " + name + " comes twice");
+    return true;
+}
+
+bool CaptureWriter::Impl::add(const ViewImage& image) {
+    if (!error.empty() || !why_not(image)) return false;
+    const int n = info.n;
+    const std::vector<exr::Channel> channels(std::begin(channel_table), std::end(channel_table));
+    std::vector<std::vector<float>> planes(channel_count,
+                                           std::vector<float>(static_cast<std::size_t>(exr::band_lines) * n));
+    std::vector<exr::Chunk> chunks;
+    Part part;
+    part.view = image.view;
+    for (int line = 0; line < n; line += exr::band_lines) {
+        const int lines = std::min(exr::band_lines, n - line);
+        for (int k = 0; k < lines; ++k)
+            put_row(image, n - 1 - (line + k), k, planes, part); // line 0 is on top
+        chunks.clear();
+        std::string why;
+        if (!exr::compress_band(channels, planes, n, lines, line, compression, chunks, why)) return fail(why);
+        if (!write_chunks(chunks, part)) return file_failed();
+    }
+    parts.push_back(std::move(part));
+    return true;
+}
+
+bool CaptureWriter::Impl::write_chunks(const std::vector<exr::Chunk>& chunks, Part& part) {
+    for (const exr::Chunk& chunk : chunks) {
+        part.chunk_at.push_back(file.position());
+        Bytes head;
+        head.u32(static_cast<std::uint32_t>(parts.size()));
+        head.u32(static_cast<std::uint32_t>(chunk.first_line));
+        head.u32(static_cast<std::uint32_t>(chunk.bytes.size()));
+        if (!file.append(head.data.data(), head.data.size())) return false;
+        if (!file.append(chunk.bytes.data(), chunk.bytes.size())) return false;
+    }
+    return true;
+}
+
+bool CaptureWriter::Impl::finish() {
+    if (!error.empty()) return false;
+    if (parts.size() != expected)
+        return fail(std::to_string(parts.size()) + " of " + std::to_string(expected) + " views were added");
+    Bytes front = all_headers(info, parts);
+    if (front.data.size() > header_room) return fail("a layer number is too large");
+    for (const Part& part : parts)
+        for (std::uint64_t at : part.chunk_at) front.u64(at);
+    // What is left before the first chunk stays a gap of zeros; readers follow the offset tables.
+    return (file.write_at(0, front.data.data(), front.data.size()) && file.commit()) || file_failed();
+}
+
+namespace {
+
+/// Nothing leaves a writer as an exception: it works inside somebody else's program.
+template <class F> bool guarded(std::string* error, F&& body) {
+    try {
+        return body();
+    } catch (const std::exception& e) {
+        if (error && error->empty()) *error = e.what(); // short strings: no allocation
+    }
+    return false;
+}
+
+} // namespace
+
+CaptureWriter::CaptureWriter(std::string path, const CaptureInfo& info, int parts) {
+    guarded(nullptr, [&] {
+        impl = std::make_unique<Impl>(std::move(path), info, parts);
+        return true;
+    });
+    if (impl) guarded(&impl->error, [&] { return impl->start(); });
+}
+
+CaptureWriter::~CaptureWriter() = default;
+
+bool CaptureWriter::add(const ViewImage& image) {
+    return impl && guarded(&impl->error, [&] { return impl->add(image); });
+}
+
+bool CaptureWriter::finish() {
+    return impl && guarded(&impl->error, [&] { return impl->finish(); });
+}
+
+const std::string& CaptureWriter::error() const {
+    static const std::string no_memory = "out of memory";
+    return impl ? impl->error : no_memory;
+}
+
+} // namespace glcast

@@ -1,0 +1,128 @@
+#include "capture/output_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace glcast {
+namespace {
+
+constexpr mode_t file_mode = 0666; // less the user's umask
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+/// Short, so that a long target name does not make this one too long; unique by process and counter.
+std::string temporary_name(const std::string& path) {
+    static std::atomic<unsigned> counter{0};
+    return folder_of(path) + "/.glcast-" + std::to_string(getpid()) + "-" + std::to_string(++counter) +
+           ".tmp";
+}
+
+std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
+} // namespace
+
+OutputFile::OutputFile(std::string target) : path(std::move(target)) {
+    struct stat info;
+    if (path.empty() || path.back() == '/')
+        message = "cannot write '" + path + "': not a file name";
+    else if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
+        fail("cannot write", S_ISDIR(info.st_mode) ? EISDIR : EEXIST);
+    else
+        open_temporary();
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor >= 0) close(descriptor);
+    if (!temporary.empty()) unlink(temporary.c_str());
+}
+
+bool OutputFile::open_temporary() {
+    const std::string folder = folder_of(path);
+    descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, file_mode);
+    if (descriptor >= 0) {
+        if (access(descriptor_path(descriptor).c_str(), F_OK) == 0) return true;
+        close(descriptor); // without /proc it could never be given a name
+        descriptor = -1;
+    }
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string name = temporary_name(path);
+        descriptor = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, file_mode);
+        if (descriptor >= 0) {
+            temporary = name;
+            return true;
+        }
+        if (errno != EEXIST) break;
+    }
+    return fail("cannot write", errno);
+}
+
+bool OutputFile::fail(const char* what, int code) {
+    if (message.empty()) message = std::string(what) + " '" + path + "': " + std::strerror(code);
+    return false;
+}
+
+bool OutputFile::append(const void* data, std::size_t bytes) {
+    if (!write_at(end, data, bytes)) return false;
+    end += bytes;
+    return true;
+}
+
+bool OutputFile::write_at(std::uint64_t offset, const void* data, std::size_t bytes) {
+    if (!message.empty()) return false;
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t written = pwrite(descriptor, from, bytes, static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return fail("cannot write", written < 0 ? errno : EIO);
+        from += written;
+        offset += static_cast<std::uint64_t>(written);
+        bytes -= static_cast<std::size_t>(written);
+    }
+    return true;
+}
+
+bool OutputFile::skip_to(std::uint64_t offset) {
+    if (!message.empty()) return false;
+    end = offset;
+    return true;
+}
+
+/// Gives an O_TMPFILE its temporary name; rename() then replaces what may be at the target, which link()
+/// cannot.
+bool OutputFile::name_unnamed() {
+    const std::string from = descriptor_path(descriptor);
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string name = temporary_name(path);
+        if (linkat(AT_FDCWD, from.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+            temporary = name;
+            return true;
+        }
+        if (errno != EEXIST) break;
+    }
+    return fail("cannot write", errno);
+}
+
+bool OutputFile::commit() {
+    if (!message.empty()) return false;
+    if (descriptor < 0) return fail("cannot write", EBADF);
+    if (temporary.empty() && !name_unnamed()) return false;
+    const int closed = close(descriptor); // network file systems tell here that the disk is full
+    descriptor = -1;
+    if (closed != 0) return fail("cannot write", errno);
+    if (rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot write", errno);
+    temporary.clear();
+    return true;
+}
+
+std::string why_not_writable(const std::string& path) { return OutputFile(path).error(); }
+
+} // namespace glcast
