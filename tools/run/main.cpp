@@ -114,18 +114,18 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
 }
 
 int report(const Options& options, const Seen& seen, const std::string& ending) {
-    if (options.list && seen.listed) {
+    if (options.list && !seen.listed.empty()) {
         for (const std::string& group : seen.groups) {
             std::cout << group << '\n';
         }
         return 0;
     }
-    if (!seen.captured) {
+    if (seen.capture.empty()) {
         return fail(describe_failure(seen, ending));
     }
-    std::cerr << "glcast-run: frame " << seen.captured_frame << " of "
-              << fs::path(options.program[0]).filename().string() << " is cast in " << options.output << '\n';
-    return 0;
+    std::cerr << "glcast-run: " << fs::path(options.program[0]).filename().string() << " is cast in "
+              << seen.capture << '
+'; return 0;
 }
 
 int run(const Options& options) {
