@@ -1,0 +1,41 @@
+// A real program, cast from start to end by the commands that people use: glcast-run, glcast mesh, glcast
+// render.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/deviation/deviation.h"
+#include "tools/mesh/mesh.h"
+
+namespace glcast::test {
+
+struct RealProgram {
+    std::string name; ///< of the files that the cast leaves in the output folder
+    std::vector<std::string> command;
+    int n = 256;
+    std::vector<std::pair<std::string, std::string>> environment;
+    std::vector<std::string> options; ///< more for glcast-run
+};
+
+struct Cast {
+    std::string error;     ///< what went wrong, empty when all went well
+    std::string oracle;    ///< what the independent check says of the mesh
+    bool manifold = false; ///< by the independent check
+    Mesh mesh;             ///< level 0
+    double sample = 0;     ///< model units
+};
+
+/// Files go to the folder `real` of the build tree and stay there: NAME.exr, NAME.glb, NAME.png to look at.
+Cast cast_program(const RealProgram& program);
+
+/// Distances from `cast` to the truth in `file` and back, in samples, in the model's own coordinates.
+struct Accuracy {
+    double to_truth = 0, from_truth = 0;
+};
+Accuracy accuracy(const Cast& cast, const Mesh& truth);
+
+/// Share of the surface whose colour is nearest in direction to `colour`.
+double area_share(const Mesh& mesh, const glm::vec3& colour);
+
+} // namespace glcast::test
