@@ -1,0 +1,129 @@
+#include "shim/preload/options.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <glm/gtc/type_ptr.hpp>
+#include <vector>
+
+#include "shim/preload/similarity.h"
+
+namespace glcast::preload {
+namespace {
+
+/// from_chars, because strtod follows the program's locale.
+template <class Number> bool parse_number(const std::string& text, Number& number) {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && stop == end;
+}
+
+/// Numbers between commas or spaces; empty when anything else is there.
+std::vector<double> parse_list(const std::string& text) {
+    std::vector<double> numbers;
+    std::size_t at = 0;
+    while ((at = text.find_first_not_of(", ", at)) != std::string::npos) {
+        const std::size_t end = std::min(text.find_first_of(", ", at), text.size());
+        double number = 0;
+        if (!parse_number(text.substr(at, end - at), number) || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+        at = end;
+    }
+    return numbers;
+}
+
+bool parse_switch(const std::string& text, bool& on) {
+    on = text == "1" || text == "yes" || text == "true";
+    return on || text == "0" || text == "no" || text == "false";
+}
+
+bool parse_box(const std::string& text, Options& options) {
+    const std::vector<double> v = parse_list(text);
+    if (v.size() != 6) return false;
+    const glm::dvec3 a(v[0], v[1], v[2]), b(v[3], v[4], v[5]);
+    const glm::dvec3 size = b - a;
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) return false;
+    const double edge = std::max({size.x, size.y, size.z});
+    options.box = Box{(a + b - edge) / 2.0, edge};
+    return true;
+}
+
+bool parse_frame_matrix(const std::string& text, Options& options) {
+    if (text == "eye" || text == "base") {
+        options.frame_matrix = text == "eye" ? FrameMatrix::eye : FrameMatrix::base;
+        return true;
+    }
+    const std::vector<double> v = parse_list(text);
+    if (v.size() != 16) return false;
+    options.frame_matrix = FrameMatrix::given;
+    options.given_matrix = glm::make_mat4(v.data());
+    return is_similarity(options.given_matrix);
+}
+
+bool parse_normals(const std::string& text, Options& options) {
+    options.normals = text == "six" ? NormalMethod::six_lights : NormalMethod::signed_lights;
+    return text == "six" || text == "signed";
+}
+
+/// The variables beside GLCAST_OUT and what each may hold.
+struct Variable {
+    const char* name;
+    const char* expected;
+    bool (*parse)(const std::string& text, Options& options);
+};
+constexpr Variable variables[] = {
+    {"GLCAST_N", "a whole number from 8 to 8192",
+     [](const std::string& t, Options& o) {
+         return parse_number(t, o.n) && o.n >= min_resolution && o.n <= max_resolution;
+     }},
+    {"GLCAST_FRAME", "a whole number from 1",
+     [](const std::string& t, Options& o) { return parse_number(t, o.frame) && o.frame >= 1; }},
+    {"GLCAST_AFTER", "seconds, 0 or more",
+     [](const std::string& t, Options& o) {
+         return parse_number(t, o.after_seconds) && std::isfinite(o.after_seconds) && o.after_seconds >= 0;
+     }},
+    {"GLCAST_NORMALS", "signed or six", parse_normals},
+    {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1", parse_box},
+    {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
+     parse_frame_matrix},
+    {"GLCAST_LIST", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.list); }},
+    {"GLCAST_GROUP", "a whole number from 1",
+     [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
+    {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
+};
+
+/// Why a file could not be written there, found before the program has drawn anything.
+std::string check_output(const std::string& out) {
+    const std::filesystem::path path(out);
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        return "cannot write " + out + ": no folder " + folder.string();
+    if (std::filesystem::is_directory(path, ignored)) return "cannot write " + out + ": it is a folder";
+    if (access(folder.c_str(), W_OK) != 0) return "cannot write " + out + ": " + std::strerror(errno);
+    return {};
+}
+
+} // namespace
+
+Options read_options() {
+    Options options;
+    for (const Variable& variable : variables) {
+        const char* text = std::getenv(variable.name);
+        if (!text || !*text || variable.parse(text, options)) continue;
+        options.error = std::string(variable.name) + "=" + text + ": expected " + variable.expected;
+        return options;
+    }
+    const char* out = std::getenv("GLCAST_OUT");
+    options.out = out ? out : "";
+    if (!options.out.empty() && !options.list) options.error = check_output(options.out);
+    options.armed = options.error.empty() && (options.list || !options.out.empty());
+    return options;
+}
+
+} // namespace glcast::preload

@@ -1,0 +1,40 @@
+// What the environment asks for: each option of glcast-run is a variable (docs/architecture.md).
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+
+#include "capture/engine.h"
+
+namespace glcast::preload {
+
+/// Where the axes of the capture come from.
+enum class FrameMatrix {
+    automatic, ///< the base modelview's inverse where that is a similarity, else eye space
+    base,      ///< the base modelview's inverse; refused where it is no similarity
+    eye,       ///< eye space
+    given,     ///< 16 numbers, column by column as in glLoadMatrix, from eye space to the capture frame
+};
+
+struct Options {
+    bool armed = false; ///< GLCAST_OUT or GLCAST_LIST is set, and nothing is wrong
+    std::string out;    ///< GLCAST_OUT: file to write
+    int n = 512;        ///< GLCAST_N: samples per axis
+    long frame = 1;     ///< GLCAST_FRAME: first frame that may be taken, from 1
+    double after_seconds =
+        0; ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
+    NormalMethod normals = NormalMethod::signed_lights; ///< GLCAST_NORMALS: signed, six
+    std::optional<Box>
+        box; ///< GLCAST_BOX: x0,y0,z0,x1,y1,z1 in the capture frame; made a cube about its centre
+    FrameMatrix frame_matrix = FrameMatrix::automatic; ///< GLCAST_FRAME_MATRIX: eye, base, or 16 numbers
+    glm::dmat4 given_matrix{1.0};
+    bool list = false; ///< GLCAST_LIST: print the groups of the scene, capture nothing
+    int group =
+        0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
+    bool quit = false; ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
+    std::string error; ///< one line; not armed then
+};
+
+Options read_options();
+
+} // namespace glcast::preload

@@ -1,0 +1,116 @@
+#include "shim/preload/real.h"
+
+#include <dlfcn.h>
+
+#include <atomic>
+#include <cstring>
+
+#include "shim/preload/session.h"
+#include "shim/preload/status.h"
+#include "shim/preload/stub.h"
+
+extern "C" {
+extern const char __ehdr_start __attribute__((visibility("hidden")));
+extern const char _end __attribute__((visibility("hidden")));
+}
+
+namespace glcast::preload {
+namespace {
+
+/// In the order in which they are asked. glvnd's libGL and libOpenGL have the same functions.
+constexpr const char* gl_libraries[] = {"libGL.so.1", "libOpenGL.so.0", "libGLX.so.0", "libEGL.so.1",
+                                        "libGLESv2.so.2"};
+
+/// dlsym by version: dlvsym is not interposed by anybody, and no private name of the C library is used.
+void* find_dl(const char* name) {
+    for (const char* version : {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17"}) // 2.17: aarch64
+        if (void* function = dlvsym(RTLD_NEXT, name, version)) return function;
+    return nullptr;
+}
+
+template <class Function> Function cached_dl(std::atomic<Function>& cache, const char* name) {
+    Function function = cache.load(std::memory_order_relaxed);
+    if (!function) {
+        function = reinterpret_cast<Function>(find_dl(name));
+        cache.store(function, std::memory_order_relaxed);
+    }
+    return function;
+}
+
+void* find_in_loaded_libraries(const char* name) {
+    for (const char* library : gl_libraries) {
+        void* handle = real_dlopen()(library, RTLD_LAZY | RTLD_NOLOAD);
+        if (!handle) continue;
+        void* function = real_dlsym()(handle, name);
+        dlclose(handle);
+        if (function && !is_own(function)) return function;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+void* find_symbol(const char* name) {
+    void* next = real_dlsym()(RTLD_NEXT, name);
+    if (next && !is_own(next)) return next;
+    return find_in_loaded_libraries(name);
+}
+
+namespace {
+
+GlProc ask_get_proc_address(const char* name) {
+    using GetProcAddress = GlProc (*)(const char*);
+    for (const char* get_name : {"glXGetProcAddressARB", "eglGetProcAddress"}) {
+        if (get_name[0] != name[0] && name[0] == 'e') continue; // egl* names: EGL alone
+        if (auto get = reinterpret_cast<GetProcAddress>(find_symbol(get_name)))
+            if (GlProc function = get(name)) return function;
+    }
+    return nullptr;
+}
+
+std::uintptr_t do_nothing() { return 0; }
+
+GlProc real_or_nothing(const char* name) {
+    if (GlProc function = find_real(name)) return function;
+    return reinterpret_cast<GlProc>(do_nothing);
+}
+
+GlProc& slot(GlTable& table, GlCall call) {
+    return reinterpret_cast<GlProc*>(&table)[static_cast<std::size_t>(call)];
+}
+
+} // namespace
+
+DlsymFunction real_dlsym() {
+    static constinit std::atomic<DlsymFunction> cache{nullptr};
+    return cached_dl(cache, "dlsym");
+}
+
+DlopenFunction real_dlopen() {
+    static constinit std::atomic<DlopenFunction> cache{nullptr};
+    return cached_dl(cache, "dlopen");
+}
+
+bool is_own(const void* code) { return code >= &__ehdr_start && code < &_end; }
+
+GlProc find_real(const char* name) {
+    GlProc function = reinterpret_cast<GlProc>(find_symbol(name));
+    if (!function) function = ask_get_proc_address(name);
+    if (!is_own(reinterpret_cast<const void*>(function))) return function;
+    say_once("found itself where it looked for %s: that call does nothing", name);
+    return nullptr;
+}
+
+const GlTable& real_table() {
+    static const GlTable table = load_gl_table(real_or_nothing);
+    return table;
+}
+
+void resolve(GlCall call) {
+    GlProc function = real_or_nothing(gl_call_names[static_cast<std::size_t>(call)]);
+    if (shadows_calls() && record::always_shadowed(call))
+        function = slot(const_cast<GlTable&>(record::table()), call);
+    __atomic_store_n(&slot(idle, call), function, __ATOMIC_RELAXED);
+}
+
+} // namespace glcast::preload

@@ -1,0 +1,269 @@
+#include "shim/preload/scene_table.h"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+
+namespace glcast::preload {
+namespace {
+
+constinit thread_local DrawGate* gate = nullptr;
+
+bool has_faces(GLenum mode) { return triangle_count(mode, 1'000'000) > 0; }
+
+// Each family of calls is a template over the member of GlTable that it stands for, so that a family is
+// written once and the calls are listed in a table below.
+
+/// A draw whose vertex count is argument `Count`, times argument `Instances` where that is not -1. Count -1:
+/// not known.
+template <auto Member, int Count, int Instances,
+          class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct PlainDraw;
+template <auto Member, int Count, int Instances, class R, class... A>
+struct PlainDraw<Member, Count, Instances, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        const auto all = std::tie(arguments...);
+        const GLenum mode = std::get<0>(all);
+        long triangles = has_faces(mode) ? 1 : 0;
+        if constexpr (Count >= 0) triangles = triangle_count(mode, std::get<Count>(all));
+        if constexpr (Instances >= 0) triangles *= std::max<long>(0, std::get<Instances>(all));
+        if (gate->keep(has_faces(mode), triangles)) (gate->inner.*Member)(arguments...);
+    }
+};
+
+/// Many draws in one: argument `Counts` holds as many counts as argument `Number` says.
+template <auto Member, int Counts, int Number,
+          class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct MultiDraw;
+template <auto Member, int Counts, int Number, class R, class... A>
+struct MultiDraw<Member, Counts, Number, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        const auto all = std::tie(arguments...);
+        const GLenum mode = std::get<0>(all);
+        long triangles = 0;
+        for (GLsizei i = 0; i < std::get<Number>(all); ++i)
+            triangles += triangle_count(mode, std::get<Counts>(all)[i]);
+        if (gate->keep(has_faces(mode), triangles)) (gate->inner.*Member)(arguments...);
+    }
+};
+
+/// glRect*: two triangles.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Rectangle;
+template <auto Member, class R, class... A> struct Rectangle<Member, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        if (gate->keep(true, 2)) (gate->inner.*Member)(arguments...);
+    }
+};
+
+/// A vertex between glBegin and glEnd, however it is given.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Vertex;
+template <auto Member, class R, class... A> struct Vertex<Member, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        ++gate->vertices;
+        if (!gate->swallowing) (gate->inner.*Member)(arguments...);
+    }
+};
+
+/// Generic attribute 0 is the vertex.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Attribute;
+template <auto Member, class R, class... A> struct Attribute<Member, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        const bool is_vertex = std::get<0>(std::tie(arguments...)) == 0;
+        if (is_vertex) ++gate->vertices;
+        if (!is_vertex || !gate->swallowing) (gate->inner.*Member)(arguments...);
+    }
+};
+
+/// Pixels, which are never solid.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Dropped;
+template <auto Member, class R, class... A> struct Dropped<Member, R (*)(A...)> {
+    static R APIENTRY call(A...) {}
+};
+
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct BindFramebuffer;
+template <auto Member, class R, class... A> struct BindFramebuffer<Member, R (*)(A...)> {
+    static R APIENTRY call(GLenum target, GLuint name) {
+        if (target != GL_READ_FRAMEBUFFER) gate->framebuffer_bound(name);
+        if (!gate->draws_nothing()) (gate->inner.*Member)(target, name);
+    }
+};
+
+void APIENTRY begin(GLenum mode) {
+    gate->mode = mode;
+    gate->vertices = 0;
+    gate->swallowing = !gate->keep(has_faces(mode), 0);
+    if (!gate->swallowing) gate->inner.Begin(mode);
+}
+
+void APIENTRY end() {
+    gate->add_triangles(triangle_count(gate->mode, gate->vertices));
+    if (!gate->swallowing) gate->inner.End();
+    gate->swallowing = false;
+}
+
+void APIENTRY eval_mesh_1(GLenum mode, GLint i1, GLint i2) {
+    if (gate->keep(false, 0)) gate->inner.EvalMesh1(mode, i1, i2);
+}
+
+void APIENTRY eval_mesh_2(GLenum mode, GLint i1, GLint i2, GLint j1, GLint j2) {
+    const bool filled = mode == GL_FILL;
+    const long triangles = filled ? 2L * std::max(0, i2 - i1) * std::max(0, j2 - j1) : 0;
+    if (gate->keep(filled, triangles)) gate->inner.EvalMesh2(mode, i1, i2, j1, j2);
+}
+
+void APIENTRY push_matrix() {
+    gate->before_push();
+    gate->inner.PushMatrix();
+}
+
+// name, argument with the number of vertices, argument with the number of instances
+#define GLCAST_PLAIN_DRAWS(X)                                                                                \
+    X(DrawArrays, 2, -1)                                                                                     \
+    X(DrawArraysEXT, 2, -1)                                                                                  \
+    X(DrawElements, 1, -1)                                                                                   \
+    X(DrawRangeElements, 3, -1)                                                                              \
+    X(DrawRangeElementsEXT, 3, -1)                                                                           \
+    X(DrawElementsBaseVertex, 1, -1)                                                                         \
+    X(DrawRangeElementsBaseVertex, 3, -1)                                                                    \
+    X(DrawArraysInstanced, 2, 3)                                                                             \
+    X(DrawArraysInstancedARB, 2, 3)                                                                          \
+    X(DrawArraysInstancedEXT, 2, 3)                                                                          \
+    X(DrawArraysInstancedBaseInstance, 2, 3)                                                                 \
+    X(DrawElementsInstanced, 1, 4)                                                                           \
+    X(DrawElementsInstancedARB, 1, 4)                                                                        \
+    X(DrawElementsInstancedEXT, 1, 4)                                                                        \
+    X(DrawElementsInstancedBaseVertex, 1, 4)                                                                 \
+    X(DrawElementsInstancedBaseInstance, 1, 4)                                                               \
+    X(DrawElementsInstancedBaseVertexBaseInstance, 1, 4)                                                     \
+    X(DrawArraysIndirect, -1, -1)                                                                            \
+    X(DrawElementsIndirect, -1, -1)                                                                          \
+    X(MultiDrawArraysIndirect, -1, -1)                                                                       \
+    X(MultiDrawElementsIndirect, -1, -1)                                                                     \
+    X(DrawTransformFeedback, -1, -1)                                                                         \
+    X(DrawTransformFeedbackStream, -1, -1)                                                                   \
+    X(DrawTransformFeedbackInstanced, -1, 2)                                                                 \
+    X(DrawTransformFeedbackStreamInstanced, -1, 3)
+
+// name, argument with the counts, argument with how many there are
+#define GLCAST_MULTI_DRAWS(X)                                                                                \
+    X(MultiDrawArrays, 2, 3)                                                                                 \
+    X(MultiDrawArraysEXT, 2, 3)                                                                              \
+    X(MultiDrawElements, 1, 4)                                                                               \
+    X(MultiDrawElementsEXT, 1, 4)                                                                            \
+    X(MultiDrawElementsBaseVertex, 1, 4)
+
+#define GLCAST_FOUR_TYPES(X, NAME) X(NAME##d) X(NAME##f) X(NAME##i) X(NAME##s)
+#define GLCAST_FOUR_TYPES_V(X, NAME) X(NAME##dv) X(NAME##fv) X(NAME##iv) X(NAME##sv)
+
+#define GLCAST_VERTICES(X)                                                                                   \
+    GLCAST_FOUR_TYPES(X, Vertex2)                                                                            \
+    GLCAST_FOUR_TYPES(X, Vertex3)                                                                            \
+    GLCAST_FOUR_TYPES(X, Vertex4)                                                                            \
+    GLCAST_FOUR_TYPES_V(X, Vertex2)                                                                          \
+    GLCAST_FOUR_TYPES_V(X, Vertex3)                                                                          \
+    GLCAST_FOUR_TYPES_V(X, Vertex4)                                                                          \
+    X(EvalCoord1d)                                                                                           \
+    X(EvalCoord1f) X(EvalCoord1dv) X(EvalCoord1fv) X(EvalCoord2d) X(EvalCoord2f) X(EvalCoord2dv)             \
+        X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2) X(ArrayElement) X(ArrayElementEXT)
+
+#define GLCAST_SCALARS_AND_ARRAYS(X, NAME, SUFFIX)                                                           \
+    X(NAME##d##SUFFIX)                                                                                       \
+    X(NAME##f##SUFFIX) X(NAME##s##SUFFIX) X(NAME##dv##SUFFIX) X(NAME##fv##SUFFIX) X(NAME##sv##SUFFIX)
+
+#define GLCAST_ATTRIBUTES(X)                                                                                 \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib1, )                                                            \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib2, )                                                            \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib3, )                                                            \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib4, )                                                            \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib1, ARB)                                                         \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib2, ARB)                                                         \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib3, ARB)                                                         \
+    GLCAST_SCALARS_AND_ARRAYS(X, VertexAttrib4, ARB)                                                         \
+    X(VertexAttrib4bv)                                                                                       \
+    X(VertexAttrib4iv) X(VertexAttrib4ubv) X(VertexAttrib4uiv) X(VertexAttrib4usv) X(VertexAttrib4Nbv)       \
+        X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub) X(VertexAttrib4Nubv)                     \
+            X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
+
+#define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)
+#define GLCAST_PIXELS(X) X(Bitmap) X(DrawPixels) X(CopyPixels)
+#define GLCAST_CLEARS(X)                                                                                     \
+    X(Clear)                                                                                                 \
+    X(ClearBufferfv) X(ClearBufferiv) X(ClearBufferuiv) X(ClearBufferfi) X(Accum) X(BlitFramebuffer)         \
+        X(BlitFramebufferEXT) X(Flush) X(Finish)
+
+void install_draws(GlTable& table) {
+#define GLCAST_INSTALL(NAME, COUNT, INSTANCES) table.NAME = PlainDraw<&GlTable::NAME, COUNT, INSTANCES>::call;
+    GLCAST_PLAIN_DRAWS(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+#define GLCAST_INSTALL(NAME, COUNTS, NUMBER) table.NAME = MultiDraw<&GlTable::NAME, COUNTS, NUMBER>::call;
+    GLCAST_MULTI_DRAWS(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+#define GLCAST_INSTALL(NAME) table.NAME = Rectangle<&GlTable::NAME>::call;
+    GLCAST_RECTANGLES(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+    table.Begin = begin;
+    table.End = end;
+    table.EvalMesh1 = eval_mesh_1;
+    table.EvalMesh2 = eval_mesh_2;
+}
+
+void install_vertices(GlTable& table) {
+#define GLCAST_INSTALL(NAME) table.NAME = Vertex<&GlTable::NAME>::call;
+    GLCAST_VERTICES(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+#define GLCAST_INSTALL(NAME) table.NAME = Attribute<&GlTable::NAME>::call;
+    GLCAST_ATTRIBUTES(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+}
+
+void install_others(GlTable& table, bool draws_nothing) {
+#define GLCAST_INSTALL(NAME) table.NAME = Dropped<&GlTable::NAME>::call;
+    GLCAST_PIXELS(GLCAST_INSTALL)
+    if (draws_nothing) {
+        GLCAST_CLEARS(GLCAST_INSTALL)
+    }
+#undef GLCAST_INSTALL
+    table.BindFramebuffer = BindFramebuffer<&GlTable::BindFramebuffer>::call;
+    table.BindFramebufferEXT = BindFramebuffer<&GlTable::BindFramebufferEXT>::call;
+    table.PushMatrix = push_matrix;
+}
+
+} // namespace
+
+long triangle_count(GLenum mode, long vertices) {
+    switch (mode) {
+    case GL_TRIANGLES:
+        return vertices / 3;
+    case GL_QUADS:
+        return vertices / 4 * 2;
+    case GL_TRIANGLE_STRIP:
+    case GL_TRIANGLE_FAN:
+    case GL_QUAD_STRIP:
+    case GL_POLYGON:
+        return std::max(0L, vertices - 2);
+    case GL_TRIANGLES_ADJACENCY:
+        return vertices / 6;
+    case GL_TRIANGLE_STRIP_ADJACENCY:
+        return std::max(0L, vertices / 2 - 2);
+    case GL_PATCHES:
+        return vertices / 3;
+    default:
+        return 0;
+    }
+}
+
+GlTable gated_table(DrawGate& new_gate) {
+    gate = &new_gate;
+    GlTable table = new_gate.inner;
+    install_draws(table);
+    install_vertices(table);
+    install_others(table, new_gate.draws_nothing());
+    return table;
+}
+
+} // namespace glcast::preload

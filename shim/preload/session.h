@@ -1,0 +1,62 @@
+// The life of a preloaded process: its contexts, its frames, and when one of them is cast.
+#pragma once
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "shim/preload/options.h"
+#include "shim/preload/window_system.h"
+#include "shim/record/record.h"
+
+namespace glcast::preload {
+
+/// A context of the program's.
+struct NativeContext {
+    const WindowSystem* system = nullptr;
+    void* display = nullptr;
+    void* handle = nullptr;
+    std::function<void*()>
+        make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
+    std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
+    void* sibling = nullptr;                 ///< made when first needed, ours to destroy
+    std::map<std::uintptr_t, long> frames;   ///< swaps by drawable
+    bool recording = false;
+    std::uintptr_t recorded_drawable = 0;
+    int threads = 0; ///< on which it is current
+    bool destroyed = false;
+};
+
+/// Must GL be shadowed at all? False for good when nothing can be asked of this process.
+bool shadows_calls();
+
+// What the GLX and EGL wrappers report. None of them throws, fails or changes what the program sees.
+
+/// `share` is a native handle or null. A null `make_sibling`: the context is not desktop GL.
+void context_made(const WindowSystem& system, void* display, void* handle, void* share,
+                  std::function<void*()> make_sibling) noexcept;
+/// Before the real destroy.
+void context_destroyed(void* handle) noexcept;
+/// After a make-current that succeeded; null context: none is current on this thread.
+void made_current(const Binding& binding) noexcept;
+/// Around the real swap of a drawable.
+void before_swap(std::uintptr_t drawable) noexcept;
+void after_swap(std::uintptr_t drawable) noexcept;
+
+/// More than 0 while a wrapper is inside a real GLX or EGL call on this thread: calls that the GL library
+/// then makes to our exported names are its own business.
+class Outermost {
+  public:
+    Outermost() : outermost(depth++ == 0) {}
+    ~Outermost() { --depth; }
+    Outermost(const Outermost&) = delete;
+    Outermost& operator=(const Outermost&) = delete;
+    explicit operator bool() const { return outermost; }
+
+  private:
+    static thread_local int depth;
+    const bool outermost;
+};
+
+} // namespace glcast::preload

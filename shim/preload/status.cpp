@@ -1,0 +1,70 @@
+#include "shim/preload/status.h"
+
+#include <fcntl.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <set>
+
+namespace glcast::preload {
+namespace {
+
+std::string format_line(const char* format, va_list arguments) {
+    char text[1024];
+    const int length = std::vsnprintf(text, sizeof text, format, arguments);
+    return length < 0 ? std::string(format) : std::string(text);
+}
+
+/// In one write, so that lines of several processes do not mix. errno stays the program's.
+void write_line(int file, const std::string& line) {
+    const int saved = errno;
+    const std::string whole = line + "\n";
+    [[maybe_unused]] const ssize_t written = write(file, whole.data(), whole.size());
+    errno = saved;
+}
+
+} // namespace
+
+void say(const char* format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(STDERR_FILENO, "glcast: " + format_line(format, arguments));
+    va_end(arguments);
+}
+
+void say_once(const char* format, ...) {
+    static std::mutex mutex;
+    static auto* said = new std::set<std::string>; // never destroyed: threads may outlive exit()
+    va_list arguments;
+    va_start(arguments, format);
+    const std::string line = format_line(format, arguments);
+    va_end(arguments);
+    const std::lock_guard lock(mutex);
+    if (said->insert(line).second) write_line(STDERR_FILENO, "glcast: " + line);
+}
+
+bool has_status_file() {
+    const char* path = std::getenv("GLCAST_STATUS");
+    return path && *path;
+}
+
+void tell(const char* event, const std::string& text) {
+    if (!has_status_file()) return;
+    const int saved = errno;
+    // Not blocking: a pipe whose reader has gone must not stop the program.
+    const int file = open(std::getenv("GLCAST_STATUS"), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK);
+    if (file >= 0) {
+        write_line(file, std::string(event) + " " + text);
+        close(file);
+    }
+    errno = saved;
+}
+
+std::string program_name() { return program_invocation_short_name; }
+
+} // namespace glcast::preload

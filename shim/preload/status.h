@@ -1,0 +1,22 @@
+// What the shim tells people, and what it tells glcast-run.
+//
+// People read lines on stderr, each beginning with "glcast: ". glcast-run reads the events in GLCAST_STATUS
+// (docs/status-lines.md).
+#pragma once
+#include <string>
+
+namespace glcast::preload {
+
+/// One line on stderr.
+[[gnu::format(printf, 1, 2)]] void say(const char* format, ...);
+/// The same, but each line only once in the life of the process.
+[[gnu::format(printf, 1, 2)]] void say_once(const char* format, ...);
+
+/// One line in GLCAST_STATUS; nothing without it.
+void tell(const char* event, const std::string& text);
+bool has_status_file();
+
+/// File name of the running program.
+std::string program_name();
+
+} // namespace glcast::preload

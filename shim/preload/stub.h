@@ -1,0 +1,44 @@
+// The exported gl* entry points: what each of them does when no frame is recorded, and when one is.
+#pragma once
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "capture/gl/gl_table.h"
+#pragma GCC visibility push(hidden) // so that the stubs read `active` and `idle` with no detour over the GOT
+#include "shim/record/record.h"
+#pragma GCC visibility pop
+
+#define GLCAST_EXPORT __attribute__((visibility("default")))
+
+namespace glcast::preload {
+
+/// What the stubs call while nothing is recorded: the real function, or the recorder's where the call is
+/// shadowed always (record::always_shadowed). Constant-initialised with thunks that look the function up at
+/// its first call.
+extern GlTable idle __attribute__((visibility("hidden")));
+
+/// The exported stubs, indexed by GlCall.
+extern const GlProc stubs[gl_call_count] __attribute__((visibility("hidden")));
+
+/// Put the right function for a call into `idle`.
+void resolve(GlCall call);
+
+} // namespace glcast::preload
+
+// A stub is a load, a branch that is never taken in an idle program, and an indirect tail call. The asm label
+// keeps it clear of the prototypes in GL/gl.h.
+#define GLCAST_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                                     \
+    extern "C" GLCAST_EXPORT RESULT APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                 \
+    extern "C" GLCAST_EXPORT RESULT APIENTRY gl##NAME##_stub PARAMETERS {                                    \
+        if (glcast::record::active.load(std::memory_order_relaxed) == 0) [[likely]]                          \
+            return glcast::preload::idle.NAME ARGUMENTS;                                                     \
+        return glcast::record::table().NAME ARGUMENTS;                                                       \
+    }                                                                                                        \
+    namespace glcast::preload::thunk {                                                                       \
+    RESULT APIENTRY NAME PARAMETERS {                                                                        \
+        resolve(GlCall::NAME);                                                                               \
+        return idle.NAME ARGUMENTS;                                                                          \
+    }                                                                                                        \
+    }

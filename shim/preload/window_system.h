@@ -1,0 +1,25 @@
+// What a capture needs of GLX or EGL.
+#pragma once
+#include <cstdint>
+
+namespace glcast::preload {
+
+/// A context with the drawables it is current on.
+struct Binding {
+    void* display = nullptr;
+    std::uintptr_t draw = 0, read = 0;
+    void* context = nullptr;
+};
+
+class WindowSystem {
+  public:
+    virtual ~WindowSystem() = default;
+    virtual const char* name() const = 0;
+    /// Of this thread, asked from the window system.
+    virtual Binding current() const = 0;
+    /// False when it failed; errors do not reach the program.
+    virtual bool bind(const Binding& binding) const = 0;
+    virtual void destroy(void* display, void* context) const = 0;
+};
+
+} // namespace glcast::preload

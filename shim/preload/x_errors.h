@@ -1,0 +1,20 @@
+// X errors of requests of our own.
+#pragma once
+
+namespace glcast::preload {
+
+/// While one lives, X errors raised by requests sent since on this display are kept from the program's
+/// handler, which may end the program. One at a time. All others go on to it. Uses the program's libX11; does
+/// nothing without it.
+class XErrorTrap {
+  public:
+    explicit XErrorTrap(void* display);
+    ~XErrorTrap();
+    XErrorTrap(const XErrorTrap&) = delete;
+    XErrorTrap& operator=(const XErrorTrap&) = delete;
+
+    /// Waits for the server's answer to everything sent so far.
+    bool failed();
+};
+
+} // namespace glcast::preload
