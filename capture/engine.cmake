@@ -1,0 +1,13 @@
+# The capture engine. Linked into a preloaded library: no static constructors, no iostream.
+add_library(glcast_engine STATIC
+    engine.cpp
+    engine_box.cpp
+    engine_normal.cpp
+    engine_pass.cpp
+    engine_target.cpp
+    forced_calls.cpp
+    forced_caps.cpp
+    forced_state.cpp
+    forced_table.cpp
+    view.cpp)
+target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_options)

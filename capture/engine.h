@@ -11,9 +11,10 @@
 
 namespace glcast {
 
-/// Draws the whole scene once through the table it is given, and through nothing else. It may set any state, clear
-/// and change matrices: the table forces what a pass needs (capture/forced_table.h). It is called many times and
-/// must draw the same each time. State it relies on, it must set (a replayed frame starts with its own prologue).
+/// Draws the whole scene once through the table it is given, and through nothing else. It may set any state,
+/// clear and change matrices: the table forces what a pass needs (capture/forced_table.h). It is called many
+/// times and must draw the same each time. State it relies on, it must set (a replayed frame starts with its
+/// own prologue).
 using DrawFunction = std::function<void(const GlTable& gl)>;
 
 enum class NormalMethod {
@@ -24,18 +25,20 @@ enum class NormalMethod {
 struct EngineOptions {
     int n = 512; ///< samples per axis, min_resolution..max_resolution
     NormalMethod normals = NormalMethod::signed_lights;
-    std::optional<Box> box;          ///< given, or found by drawing
-    glm::dmat4 eye_to_capture{1.0};  ///< C: from the scene's eye space to the capture frame, a similarity
-    Box search{glm::dvec3(-1.0), 2.0}; ///< where the box search starts, capture frame; it grows while the scene touches it
-    bool use_float_targets = true;   ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
+    std::optional<Box> box;         ///< given, or found by drawing
+    glm::dmat4 eye_to_capture{1.0}; ///< C: from the scene's eye space to the capture frame, a similarity
+    Box search{glm::dvec3(-1.0),
+               2.0}; ///< where the box search starts, capture frame; it grows while the scene touches it
+    bool use_float_targets =
+        true; ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
 };
 
 struct EngineReport {
     bool ok = false;
-    std::string error;        ///< one line when not ok: "nothing solid was drawn", "no framebuffer objects", ...
+    std::string error; ///< one line when not ok: "nothing solid was drawn", "no framebuffer objects", ...
     Box box;
     bool float_targets = false;
-    int draws = 0;            ///< how often the draw function was called
+    int draws = 0;                  ///< how often the draw function was called
     long pixels_without_normal = 0; ///< covered pixels whose draw was unlit or whose normal pass missed
     double box_seconds = 0, colour_seconds = 0, normal_seconds = 0, read_seconds = 0;
 };
@@ -43,10 +46,11 @@ struct EngineReport {
 /// Takes each finished image in the order -x +x -y +y -z +z; false stops the capture.
 using ImageSink = std::function<bool(ViewImage&&)>;
 
-/// Capture in the current context. `gl` are its real entry points, compatibility profile, framebuffer objects needed.
-/// The context's state is not restored: give it one of ours (a sibling of the program's, or OSMesa).
+/// Capture in the current context. `gl` are its real entry points, compatibility profile, framebuffer objects
+/// needed. The context's state is not restored: give it one of ours (a sibling of the program's, or OSMesa).
 /// Never throws; errors are in the report. GL errors raised by the scene are swallowed in this context.
-EngineReport run_capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options, const ImageSink& sink);
+EngineReport run_capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options,
+                         const ImageSink& sink);
 
 /// Find the smallest cube (2 samples of margin at n) around all that is drawn; nothing when nothing is.
 std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);

@@ -1,0 +1,128 @@
+#include "capture/engine_box.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+namespace glcast {
+
+namespace {
+
+constexpr double margin_samples = 2;
+constexpr double growth = 4;
+constexpr int max_growths = 10, max_empty_growths = 4, max_rounds = 24;
+
+struct Bounds {
+    glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
+    bool touches = false; ///< something may be cut by the side of the box that was looked into
+
+    bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+    void include(int axis, double from, double to) {
+        lo[axis] = std::min(lo[axis], from);
+        hi[axis] = std::max(hi[axis], to);
+    }
+    double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
+    Box cube(double size) const { return {0.5 * (lo + hi) - 0.5 * size, size}; }
+};
+
+struct Extent {
+    int u0 = std::numeric_limits<int>::max(), u1 = -1, v0 = u0, v1 = -1; ///< covered pixels
+    float near = 1, far = 0;                                             ///< depths of covered pixels
+};
+
+Extent extent_of(const std::vector<float>& depth, int m, Side side) {
+    Extent e;
+    const float background = ViewImage::background(side);
+    for (int v = 0; v < m; ++v) {
+        for (int u = 0; u < m; ++u) {
+            const float d = depth[std::size_t(v) * m + u];
+            if (d == background) continue;
+            e.u0 = std::min(e.u0, u), e.u1 = std::max(e.u1, u);
+            e.v0 = std::min(e.v0, v), e.v1 = std::max(e.v1, v);
+            e.near = std::min(e.near, d), e.far = std::max(e.far, d);
+        }
+    }
+    return e;
+}
+
+/// Depths are exact; across the image only what lies surely inside counts, from pixel edge to pixel edge.
+void include(Bounds& bounds, const Extent& e, const Box& box, Axis axis, int m) {
+    if (e.u1 < 0) return;
+    const ImageAxes axes = image_axes(axis);
+    const double pixel = box.size / m;
+    bounds.include(axes.depth, box.lo[axes.depth] + e.near * box.size, box.lo[axes.depth] + e.far * box.size);
+    const auto across = [&](int along, int first, int last) {
+        const double a = box.lo[along] + (first + 1) * pixel, b = box.lo[along] + last * pixel;
+        bounds.include(along, std::min(a, b), std::max(a, b));
+    };
+    across(axes.u, e.u0, e.u1);
+    across(axes.v, e.v0, e.v1);
+    const float edge = 1.0f / m;
+    bounds.touches |=
+        e.u0 == 0 || e.v0 == 0 || e.u1 == m - 1 || e.v1 == m - 1 || e.near < edge || e.far > 1 - edge;
+}
+
+/// Polygons are drawn as points too: their corners show however small or thin they are, and their extreme
+/// depths are the extremes of anything flat. Filled, they show where clip planes and holes end them.
+Bounds look_into(PassRunner& passes, const Target& target, const Box& box) {
+    Bounds bounds;
+    std::vector<float> depth;
+    Pass pass;
+    pass.box = box;
+    for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        pass.axis = axis;
+        for (Side side : {Side::minus, Side::plus}) {
+            pass.side = side;
+            pass.depth = DepthRule::first;
+            pass.polygon_mode = GL_POINT;
+            passes.run(pass, target);
+            if (side == Side::minus) {
+                pass.depth = DepthRule::add;
+                pass.polygon_mode = GL_FILL;
+                passes.run(pass, target);
+            }
+            target.read_depth(depth);
+            include(bounds, extent_of(depth, target.size(), side), box, axis, target.size());
+        }
+    }
+    return bounds;
+}
+
+Box grown(const Box& box) { return {box.lo + 0.5 * box.size * (1 - growth), box.size * growth}; }
+
+double moved(const Bounds& a, const Bounds& b) {
+    const glm::dvec3 d = glm::max(glm::abs(a.lo - b.lo), glm::abs(a.hi - b.hi));
+    return std::max({d.x, d.y, d.z});
+}
+
+} // namespace
+
+int box_target_size(int n) { return std::clamp(n, 64, 1024); }
+
+std::optional<Box> search_box(PassRunner& passes, const Target& target, const Box& search, int n) {
+    Box box = search;
+    Bounds known;
+    int growths = 0;
+    for (int round = 0; round < max_rounds; ++round) {
+        const Bounds seen = look_into(passes, target, box);
+        if (seen.empty() && !known.empty())
+            break; // smaller than float depth can tell: keep what was seen before
+        if (seen.empty() || (seen.touches && growths < max_growths)) {
+            if (growths++ >= (seen.empty() ? max_empty_growths : max_growths)) return std::nullopt;
+            box = grown(box);
+            continue;
+        }
+        const bool settled = !known.empty() && moved(seen, known) < 0.25 * seen.extent() / n;
+        known = seen;
+        if (settled) break;
+        const double rounding = std::ldexp(box.size, -20), pixels = 6.0 / target.size();
+        box = known.cube(known.extent() * (1 + pixels) + rounding);
+    }
+    if (known.empty()) return std::nullopt;
+    const double extent = std::max(known.extent(), std::ldexp(search.size, -40));
+    return known.cube(extent * n / (n - 2 * margin_samples));
+}
+
+} // namespace glcast

@@ -1,0 +1,182 @@
+#include "capture/engine_pass.h"
+
+#include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "capture/forced_caps.h"
+#include "capture/forced_table.h"
+
+namespace glcast {
+
+namespace {
+
+constexpr int light_count = 6;
+
+void set_cap(const GlTable& gl, GLenum cap, bool on) { on ? gl.Enable(cap) : gl.Disable(cap); }
+
+void unwind(const GlTable& gl, GLenum depth_name, GLint bottom, void(APIENTRYP pop)()) {
+    GLint depth = bottom;
+    gl.GetIntegerv(depth_name, &depth);
+    for (; depth > bottom; --depth) pop();
+}
+
+/// Whatever the draw before left pushed.
+void unwind_stacks(const GlTable& gl) {
+    unwind(gl, GL_ATTRIB_STACK_DEPTH, 0, gl.PopAttrib);
+    unwind(gl, GL_CLIENT_ATTRIB_STACK_DEPTH, 0, gl.PopClientAttrib);
+    unwind(gl, GL_NAME_STACK_DEPTH, 0, gl.PopName);
+}
+
+void reset_matrix(const GlTable& gl, GLenum mode, GLenum depth_name) {
+    gl.MatrixMode(mode);
+    unwind(gl, depth_name, 1, gl.PopMatrix);
+    gl.LoadIdentity();
+}
+
+void reset_texture_matrices(const GlTable& gl) {
+    GLint units = 1;
+    gl.GetIntegerv(GL_MAX_TEXTURE_UNITS, &units);
+    for (GLint unit = gl.ActiveTexture ? units - 1 : 0; unit >= 0; --unit) {
+        if (gl.ActiveTexture) gl.ActiveTexture(GL_TEXTURE0 + unit);
+        reset_matrix(gl, GL_TEXTURE, GL_TEXTURE_STACK_DEPTH);
+    }
+}
+
+/// What every pass has in common, at GL's defaults where the program may change it.
+void reset_drawing_state(const GlTable& gl, const Pass& pass) {
+    gl.DepthRange(0, 1);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.PolygonMode(GL_FRONT_AND_BACK, pass.polygon_mode);
+    gl.PointSize(1);
+    gl.ShadeModel(GL_SMOOTH);
+    gl.Color4f(1, 1, 1, 1);
+    gl.Normal3f(0, 0, 1);
+    if (gl.UseProgram) gl.UseProgram(0);
+    if (!gl.ClampColor) return;
+    const bool has_signs = pass.lights == Lights::signed_colour;
+    gl.ClampColor(GL_CLAMP_VERTEX_COLOR, has_signs ? GL_FALSE : GL_TRUE);
+    gl.ClampColor(GL_CLAMP_FRAGMENT_COLOR, has_signs ? GL_FALSE : GL_TRUE);
+    gl.ClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
+}
+
+void clear(const GlTable& gl, const Pass& pass) {
+    GLbitfield buffers = GL_COLOR_BUFFER_BIT;
+    if (pass.depth == DepthRule::first || pass.depth == DepthRule::missed) buffers |= GL_DEPTH_BUFFER_BIT;
+    if (pass.depth == DepthRule::first || pass.depth == DepthRule::equal) buffers |= GL_STENCIL_BUFFER_BIT;
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0u);
+    gl.ClearColor(0, 0, 0, missed_alpha);
+    gl.ClearDepth(ViewImage::background(pass.side));
+    gl.ClearStencil(0);
+    gl.Clear(buffers);
+}
+
+/// Rotation part of a similarity.
+glm::dmat3 rotation_of(const glm::dmat4& similarity) {
+    const glm::dmat3 linear(similarity);
+    return linear / std::cbrt(std::abs(glm::determinant(linear)));
+}
+
+void set_light(const GlTable& gl, GLenum light, const glm::vec4& towards, const glm::vec4& colour) {
+    constexpr GLfloat black[] = {0, 0, 0, 1};
+    gl.Lightfv(light, GL_POSITION, glm::value_ptr(towards));
+    gl.Lightfv(light, GL_AMBIENT, black);
+    gl.Lightfv(light, GL_DIFFUSE, glm::value_ptr(colour));
+    gl.Lightfv(light, GL_SPECULAR, black);
+    gl.Lightf(light, GL_SPOT_CUTOFF, 180);
+    gl.Lightf(light, GL_CONSTANT_ATTENUATION, 1);
+    gl.Lightf(light, GL_LINEAR_ATTENUATION, 0);
+    gl.Lightf(light, GL_QUADRATIC_ATTENUATION, 0);
+    gl.Enable(light);
+}
+
+} // namespace
+
+PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const glm::dmat4& eye_to_capture)
+    : gl(gl), draw(draw), eye_to_capture(eye_to_capture) {}
+
+void PassRunner::run(const Pass& pass, const Target& target) {
+    set_state(pass, target);
+    {
+        ForcedTable forced(gl, pass.kind, mirrored(pass));
+        ++draw_count;
+        draw(forced.table());
+    }
+    gl.RenderMode(GL_RENDER);
+    gl.Finish();
+    swallow_errors(gl);
+}
+
+void PassRunner::set_state(const Pass& pass, const Target& target) const {
+    unwind_stacks(gl);
+    reset_caps(gl);
+    target.bind();
+    reset_drawing_state(gl, pass);
+    if (pass.depth != DepthRule::add) clear(gl, pass);
+    set_depth_rule(pass);
+    set_lights(pass);
+    reset_texture_matrices(gl);
+    set_matrices(pass);
+    swallow_errors(gl);
+}
+
+void PassRunner::set_depth_rule(const Pass& pass) const {
+    const bool equal = pass.depth == DepthRule::equal, missed = pass.depth == DepthRule::missed;
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(equal ? GL_EQUAL : pass.side == Side::minus ? GL_LESS : GL_GREATER);
+    gl.DepthMask(equal ? GL_FALSE : GL_TRUE);
+    set_cap(gl, GL_STENCIL_TEST, equal || missed);
+    gl.StencilFunc(GL_EQUAL, 0, ~0u);
+    gl.StencilOp(GL_KEEP, GL_KEEP, equal ? GL_INCR : GL_KEEP);
+}
+
+void PassRunner::set_matrices(const Pass& pass) const {
+    reset_matrix(gl, GL_PROJECTION, GL_PROJECTION_STACK_DEPTH);
+    gl.LoadMatrixd(glm::value_ptr(lattice_projection(pass.box, pass.axis) * eye_to_capture));
+    reset_matrix(gl, GL_MODELVIEW, GL_MODELVIEW_STACK_DEPTH);
+}
+
+/// Lights stand along the axes of the capture frame, so that what they paint is the normal in that frame.
+void PassRunner::set_lights(const Pass& pass) const {
+    constexpr GLfloat black[] = {0, 0, 0, 1}, grey[] = {0.8f, 0.8f, 0.8f, 1};
+    gl.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, grey); // GL's default for diffuse
+    gl.Materialfv(GL_FRONT_AND_BACK, GL_EMISSION, black);
+    gl.Materialfv(GL_FRONT_AND_BACK, GL_SPECULAR, black);
+    const GLfloat level = pass.lights == Lights::none          ? 1.0f
+                          : pass.lights == Lights::half_colour ? 0.5f
+                                                               : 0.0f;
+    const GLfloat ambient[] = {level, level, level, 1};
+    gl.LightModelfv(GL_LIGHT_MODEL_AMBIENT, ambient);
+    gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_FALSE);
+    gl.LightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, GL_FALSE);
+    gl.LightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, GL_SINGLE_COLOR);
+    for (int i = 0; i < light_count; ++i) gl.Disable(GL_LIGHT0 + i);
+    if (pass.lights == Lights::none) return;
+
+    gl.Enable(GL_LIGHTING);
+    gl.MatrixMode(GL_MODELVIEW);
+    gl.LoadIdentity();
+    const glm::dmat3 to_eye = glm::transpose(rotation_of(eye_to_capture));
+    for (int i = 0; i < light_count; ++i) {
+        if (pass.lights == Lights::single && i != pass.light) continue;
+        const float sign = i % 2 ? -1.0f : 1.0f, strength = pass.lights == Lights::half_colour ? 0.5f : 1.0f;
+        glm::vec4 colour(0, 0, 0, 1);
+        if (pass.lights == Lights::single)
+            colour = glm::vec4(1);
+        else
+            colour[i / 2] = sign * strength;
+        set_light(gl, GL_LIGHT0 + i, glm::vec4(glm::dvec3(to_eye[i / 2]) * double(sign), 0), colour);
+    }
+}
+
+/// A viewer on the view's side sees u to the right and v up only when u x v points at him; else his image is
+/// the mirror image of ours, and what turns counter-clockwise for him turns clockwise for us.
+bool PassRunner::mirrored(const Pass& pass) const {
+    const ImageAxes axes = image_axes(pass.axis);
+    const bool right_handed = (axes.u + 1) % 3 == axes.v; // u x v = +depth
+    const bool viewer_at_plus = pass.side == Side::plus;
+    const bool reflected = glm::determinant(glm::dmat3(eye_to_capture)) < 0;
+    return (right_handed != viewer_at_plus) != reflected;
+}
+
+} // namespace glcast

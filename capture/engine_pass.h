@@ -1,0 +1,59 @@
+// One pass: every state that it needs set, the scene drawn through the forced table, once.
+#pragma once
+#include <array>
+#include <glm/mat4x4.hpp>
+
+#include "capture/engine.h"
+#include "capture/engine_target.h"
+#include "capture/forced_state.h"
+
+namespace glcast {
+
+/// Which fragment of a pixel counts.
+enum class DepthRule {
+    first,  ///< clear; the first that the side sees
+    add,    ///< as `first`, on top of what is there
+    equal,  ///< the first drawn of those at the depth that is there; writes no depth, marks its pixels in the
+            ///< stencil buffer
+    missed, ///< as `first`, where `equal` marked nothing
+};
+
+enum class Lights {
+    none,          ///< ambient only
+    signed_colour, ///< six, of positive and negative colour: the normal
+    half_colour,   ///< the same for 8-bit targets: 1/2 + normal / 2
+    single,        ///< one white light: the positive part of one component
+};
+
+struct Pass {
+    PassKind kind = PassKind::colour;
+    Box box;
+    Axis axis = Axis::z;
+    Side side = Side::minus;
+    DepthRule depth = DepthRule::first;
+    Lights lights = Lights::none;
+    int light = 0; ///< for `single`: 2 * axis, + 1 for the light from the negative side
+    GLenum polygon_mode = GL_FILL;
+};
+
+/// Draws passes into targets, and counts them.
+class PassRunner {
+  public:
+    PassRunner(const GlTable& gl, const DrawFunction& draw, const glm::dmat4& eye_to_capture);
+    void run(const Pass& pass, const Target& target);
+    int draws() const { return draw_count; }
+
+  private:
+    void set_state(const Pass& pass, const Target& target) const;
+    void set_depth_rule(const Pass& pass) const;
+    void set_matrices(const Pass& pass) const;
+    void set_lights(const Pass& pass) const;
+    bool mirrored(const Pass& pass) const;
+
+    const GlTable& gl;
+    const DrawFunction& draw;
+    const glm::dmat4 eye_to_capture;
+    int draw_count = 0;
+};
+
+} // namespace glcast

@@ -1,0 +1,36 @@
+// Entry points of the forced table that replace a call by another of the same kind.
+#pragma once
+#include "capture/gl/gl_table.h"
+
+namespace glcast::forced {
+
+void APIENTRY enable(GLenum cap);
+void APIENTRY disable(GLenum cap);
+void APIENTRY enable_indexed(GLenum cap, GLuint index);
+void APIENTRY disable_indexed(GLenum cap, GLuint index);
+
+void APIENTRY push_attrib(GLbitfield mask);
+void APIENTRY pop_attrib();
+void APIENTRY matrix_mode(GLenum mode);
+
+void APIENTRY material_f(GLenum face, GLenum name, GLfloat value);
+void APIENTRY material_fv(GLenum face, GLenum name, const GLfloat* values);
+void APIENTRY material_i(GLenum face, GLenum name, GLint value);
+void APIENTRY material_iv(GLenum face, GLenum name, const GLint* values);
+void APIENTRY colour_material(GLenum face, GLenum mode);
+void APIENTRY light_model_f(GLenum name, GLfloat value);
+void APIENTRY light_model_fv(GLenum name, const GLfloat* values);
+void APIENTRY light_model_i(GLenum name, GLint value);
+void APIENTRY light_model_iv(GLenum name, const GLint* values);
+
+void APIENTRY front_face(GLenum mode);
+void APIENTRY alpha_func(GLenum function, GLclampf reference);
+void APIENTRY blend_func(GLenum source, GLenum destination);
+void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_alpha,
+                                  GLenum destination_alpha);
+void APIENTRY colour_mask(GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha);
+void APIENTRY draw_buffer(GLenum buffer);
+void APIENTRY draw_buffers(GLsizei count, const GLenum* buffers);
+GLint APIENTRY render_mode(GLenum mode);
+
+} // namespace glcast::forced

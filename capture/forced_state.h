@@ -1,0 +1,54 @@
+// What the program would have set, where what we set instead depends on it.
+#pragma once
+#include <vector>
+
+#include "capture/gl/gl_table.h"
+
+namespace glcast {
+
+enum class PassKind {
+    colour, ///< depth and colour; also what the box is found with
+    normal, ///< normals as colours
+};
+
+/// Alpha that the normal pass writes: lit, drawn with lighting off, nothing drawn.
+inline constexpr float lit_alpha = 1.0f, unlit_alpha = 0.5f, missed_alpha = 0.0f;
+
+/// The program's values of the state that is tracked, and GL's attribute stack of them. Everything else that
+/// the forced table keeps lives in GL itself, where PushAttrib and PopAttrib take care of it.
+class ForcedState {
+  public:
+    ForcedState(const GlTable& real, PassKind kind);
+
+    /// One set of values, at GL's defaults.
+    struct Values {
+        bool lighting = false, colour_material = false, blend = false, alpha_test = false;
+        GLenum colour_material_face = GL_FRONT_AND_BACK, colour_material_mode = GL_AMBIENT_AND_DIFFUSE;
+        GLenum alpha_function = GL_ALWAYS;
+        GLclampf alpha_reference = 0;
+        GLenum blend_source = GL_ONE, blend_destination = GL_ZERO;
+        bool mask_shows = true, buffer_shows = true; ///< any colour reaches a buffer at all
+        GLenum matrix_mode = GL_MODELVIEW;
+    };
+    Values program;
+
+    void push(GLbitfield mask); ///< call before GL's own
+    void pop();                 ///< call after GL's own
+
+    void apply_alpha() const;           ///< alpha test, from alpha test, blending and what is shown
+    void apply_colour_material() const; ///< colour pass only
+    void apply_lighting() const;        ///< normal pass only: white when lit, black when not
+    void apply() const;                 ///< all of them
+
+  private:
+    struct Saved {
+        GLbitfield mask;
+        Values values;
+    };
+    const GlTable& real;
+    PassKind kind;
+    std::size_t stack_limit = 16;
+    std::vector<Saved> stack;
+};
+
+} // namespace glcast
