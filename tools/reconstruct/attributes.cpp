@@ -1,0 +1,235 @@
+#include "tools/reconstruct/attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "tools/reconstruct/planes.h"
+
+namespace glcast {
+namespace {
+
+constexpr float agreement = 0.3f;        // samples between a vertex and the plane that a pixel saw
+constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
+constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
+
+struct Attribute {
+    glm::vec3 colour{0}, normal{0}; ///< normal 0: none drawn
+    bool found = false;
+};
+
+struct Pixel {
+    float weight = 0, distance = 0;
+    glm::vec3 plane{0}, normal{0}, colour{0};
+};
+
+glm::vec3 unit_or_zero(const glm::vec3& v) {
+    const float length = glm::length(v);
+    return std::isfinite(length) && length > 1e-6f ? v / length : glm::vec3(0);
+}
+
+glm::vec3 drawn_normal(const ViewImage& image, std::size_t pixel) {
+    const glm::vec4& drawn = image.normal[pixel];
+    return drawn.w > 0 ? unit_or_zero(glm::vec3(drawn)) : glm::vec3(0);
+}
+
+/// One view's opinion on a point: its up to four pixels that agree with the point's place.
+class Opinion {
+  public:
+    Opinion(const Rays& rays, int axis, int side, const glm::dvec3& at)
+        : rays(rays), axis(axis), side(side), axes(image_axes(Axis(axis))), at(at) {}
+
+    Attribute mix() {
+        const int u = int(std::floor(at[axes.u])), v = int(std::floor(at[axes.v]));
+        for (int k = 0; k < 4; ++k) consider(u + (k & 1), v + (k >> 1));
+        Attribute out;
+        if (!count) return out;
+        const auto score = [](const Pixel& p) { return p.weight / (0.05f + p.distance); };
+        const Pixel& best =
+            *std::max_element(pixels, pixels + count, [&](auto& p, auto& q) { return score(p) < score(q); });
+        float weights = 0;
+        for (int k = 0; k < count; ++k) {
+            const Pixel& p = pixels[k];
+            if (glm::dot(p.plane, best.plane) < same_facet) continue;
+            if (best.normal != glm::vec3(0) && glm::dot(p.normal, best.normal) < same_facet) continue;
+            out.colour += p.colour * p.weight;
+            out.normal += p.normal * p.weight;
+            weights += p.weight;
+        }
+        out.colour /= weights;
+        out.normal = unit_or_zero(out.normal);
+        out.found = true;
+        return out;
+    }
+
+  private:
+    void consider(int u, int v) {
+        if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return;
+        const std::size_t p = std::size_t(v) * rays.n + u;
+        const AxisRays& seen = rays.axis[axis];
+        const ViewImage& image = *seen.image[side];
+        const std::uint32_t packed = seen.plane[side][p];
+        if (!packed || !image.covered(p)) return;
+        Pixel pixel;
+        pixel.plane = unpack_normal(packed);
+        const double away_u = at[axes.u] - u, away_v = at[axes.v] - v;
+        glm::vec3 from_hit;
+        from_hit[axes.u] = float(away_u);
+        from_hit[axes.v] = float(away_v);
+        from_hit[axes.depth] = float(at[axes.depth] - seen.depth[side][p]);
+        pixel.distance = std::abs(glm::dot(pixel.plane, from_hit));
+        if (!(pixel.distance < agreement)) return;
+        pixel.weight = float((1 - std::abs(away_u)) * (1 - std::abs(away_v))) + 1e-6f;
+        pixel.normal = drawn_normal(image, p);
+        pixel.colour = glm::vec3(image.colour[p]);
+        pixels[count++] = pixel;
+    }
+
+    const Rays& rays;
+    const int axis, side;
+    const ImageAxes axes;
+    const glm::dvec3 at;
+    Pixel pixels[4];
+    int count = 0;
+};
+
+/// The view that faces the surface most squarely and agrees.
+Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal) {
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int a, int b) {
+        const float fa = std::abs(surface_normal[a]), fb = std::abs(surface_normal[b]);
+        return fa != fb ? fa > fb : a < b;
+    });
+    for (int axis : order) {
+        const Attribute found = Opinion(rays, axis, surface_normal[axis] > 0 ? 1 : 0, at).mix();
+        if (found.found) return found;
+    }
+    return {};
+}
+
+std::vector<glm::vec3> surface_normals(const Mesh& mesh) {
+    std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0));
+    for (const Triangle& t : mesh.triangles) {
+        const glm::dvec3& p = mesh.positions[t[0]];
+        const glm::vec3 area(glm::cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p));
+        for (std::uint32_t v : t) normals[v] += area;
+    }
+    for (glm::vec3& normal : normals) {
+        normal = unit_or_zero(normal);
+        if (normal == glm::vec3(0)) normal = {0, 0, 1};
+    }
+    return normals;
+}
+
+/// Colours spread along the surface from where they are known, a ring of vertices at a time.
+void spread_colours(Mesh& mesh, std::vector<std::uint8_t>& known) {
+    std::vector<std::array<std::uint32_t, 2>> links; // unknown vertex, one of its neighbours
+    for (const Triangle& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            if (!known[t[k]]) links.push_back({t[k], t[(k + 1) % 3]});
+    std::sort(links.begin(), links.end());
+    std::vector<std::uint32_t> reached;
+    do {
+        reached.clear();
+        for (std::size_t i = 0; i < links.size();) {
+            const std::uint32_t v = links[i][0];
+            glm::vec3 sum(0);
+            int count = 0;
+            for (; i < links.size() && links[i][0] == v; ++i)
+                if (known[links[i][1]]) {
+                    sum += mesh.colours[links[i][1]];
+                    ++count;
+                }
+            if (!count) continue;
+            mesh.colours[v] = sum / float(count);
+            reached.push_back(v);
+        }
+        for (std::uint32_t v : reached) known[v] = 1;
+        std::erase_if(links, [&](auto& link) { return known[link[0]]; });
+    } while (!reached.empty());
+}
+
+std::array<std::uint32_t, 4> square_corners(const Triangle& s, const Triangle& t) {
+    const auto fourth =
+        std::find_if(t.begin(), t.end(), [&](auto v) { return std::find(s.begin(), s.end(), v) == s.end(); });
+    return {s[0], s[1], s[2], *fourth};
+}
+
+struct Square {
+    int axis, side;
+    std::array<int, 3> sample;
+};
+
+/// Which face of which sub-cube square q is, from its corners.
+Square square_at(const Mesh& mesh, std::size_t q) {
+    const Triangle& t = mesh.triangles[2 * q];
+    const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const auto corners = square_corners(t, mesh.triangles[2 * q + 1]);
+    glm::dvec3 middle(0);
+    for (std::uint32_t v : corners) middle += 0.25 * mesh.positions[v];
+    const glm::dvec3 out = glm::cross(b - a, c - a);
+    Square square{};
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(out[k]) > 0.5) square.axis = k;
+    square.side = out[square.axis] > 0;
+    for (int k = 0; k < 3; ++k)
+        square.sample[k] = int(std::lround(middle[k] - (k == square.axis ? (square.side ? 0.5 : -0.5) : 0)));
+    return square;
+}
+
+} // namespace
+
+std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
+    mesh.normals = surface_normals(mesh);
+    mesh.colours.assign(mesh.positions.size(), glm::vec3(0.5f));
+    std::vector<std::uint8_t> known(mesh.positions.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, known.size(), 2048), [&](const auto& range) {
+        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+            const Attribute found = sample_point(rays, mesh.positions[v], mesh.normals[v]);
+            if (!found.found) continue;
+            known[v] = 1;
+            mesh.colours[v] = found.colour;
+            if (!geometric_normals && found.normal != glm::vec3(0)) mesh.normals[v] = found.normal;
+        }
+    });
+    const std::size_t missing = std::count(known.begin(), known.end(), 0);
+    if (missing) spread_colours(mesh, known);
+    return missing;
+}
+
+std::size_t sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals) {
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<glm::vec3> drawn(vertices, glm::vec3(0));
+    std::vector<std::uint8_t> squares(vertices);
+    mesh.colours.assign(vertices, glm::vec3(0));
+    for (std::size_t q = 0; 2 * q < mesh.triangles.size(); ++q) {
+        const Square square = square_at(mesh, q);
+        const AxisRays& seen = rays.axis[square.axis];
+        const ViewImage& image = *seen.image[square.side];
+        const std::size_t pixel = rays.pixel(square.axis, square.sample);
+        const float face = float(square.sample[square.axis]) + (square.side ? 0.5f : -0.5f);
+        if (!image.covered(pixel) || !(std::abs(seen.depth[square.side][pixel] - face) < square_agreement))
+            continue;
+        const Triangle &s = mesh.triangles[2 * q], &t = mesh.triangles[2 * q + 1];
+        for (std::uint32_t v : square_corners(s, t)) {
+            mesh.colours[v] += glm::vec3(image.colour[pixel]);
+            drawn[v] += drawn_normal(image, pixel);
+            ++squares[v];
+        }
+    }
+    mesh.normals = surface_normals(mesh);
+    std::vector<std::uint8_t> known(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        known[v] = squares[v] > 0;
+        mesh.colours[v] = squares[v] ? mesh.colours[v] / float(squares[v]) : glm::vec3(0.5f);
+        const glm::vec3 normal = unit_or_zero(drawn[v]);
+        if (!geometric_normals && normal != glm::vec3(0)) mesh.normals[v] = normal;
+    }
+    const std::size_t missing = std::count(known.begin(), known.end(), 0);
+    if (missing) spread_colours(mesh, known);
+    return missing;
+}
+
+} // namespace glcast

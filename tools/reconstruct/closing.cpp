@@ -1,0 +1,97 @@
+// A flat closing leaves a function whose sublevel sets are convex as it is, on the lattice too: a half-plane
+// of pixels is closed under every disc. On concave outlines the digital disc is a little too coarse, so a
+// change is taken only where it removes a slit: pixels on two opposite sides within 2r + 1, and a step deeper
+// than `slit_depth`.
+#include "tools/reconstruct/closing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glcast {
+namespace {
+
+constexpr float slit_depth = 3; // samples; a shallower groove is kept as captured
+
+struct Image {
+    const std::vector<float>& at;
+    int n;
+    bool inside(int u, int v) const { return u >= 0 && v >= 0 && u < n && v < n; }
+};
+
+template <class Pick>
+std::vector<float> disc_filter(const Image& in, double radius, float outside, Pick pick) {
+    const int n = in.n, r = int(radius);
+    std::vector<float> out(in.at.size(), outside);
+    for (int dv = -r; dv <= r; ++dv) {
+        const int half = int(std::sqrt(radius * radius - dv * dv));
+        for (int v = std::max(0, -dv); v < std::min(n, n - dv); ++v) {
+            float* to = &out[std::size_t(v) * n];
+            const float* from = &in.at[std::size_t(v + dv) * n];
+            for (int du = -half; du <= half; ++du)
+                for (int u = std::max(0, -du); u < std::min(n, n - du); ++u)
+                    to[u] = pick(to[u], from[u + du]);
+        }
+    }
+    return out;
+}
+
+/// Is there, on a line through the pixel, a pixel no deeper than `level` on both sides, 2r + 1 apart at most?
+bool between_walls(const Image& depth, int u, int v, float level, double radius) {
+    constexpr int lines[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    const double reach = 2 * radius + 1 + 1e-6;
+    for (const auto& line : lines) {
+        const double step = std::hypot(line[0], line[1]);
+        double apart = 0;
+        for (int sign : {-1, 1}) {
+            int k = 1;
+            while (k * step <= reach) {
+                const int qu = u + sign * k * line[0], qv = v + sign * k * line[1];
+                if (depth.inside(qu, qv) && depth.at[std::size_t(qv) * depth.n + qu] <= level) break;
+                ++k;
+            }
+            apart += k * step;
+        }
+        if (apart <= reach * std::max(1.0, step * 0.75)) return true;
+    }
+    return false;
+}
+
+/// `depth` grows away from the viewer, no_depth where nothing is.
+std::vector<float> close(const std::vector<float>& depth, int n, double radius) {
+    const Image image{depth, n};
+    const auto nearer = disc_filter(image, radius, no_depth, [](float a, float b) { return std::min(a, b); });
+    auto closed =
+        disc_filter({nearer, n}, radius, -no_depth, [](float a, float b) { return std::max(a, b); });
+    for (int v = 0; v < n; ++v)
+        for (int u = 0; u < n; ++u) {
+            const std::size_t p = std::size_t(v) * n + u;
+            const bool border = std::min({u, v, n - 1 - u, n - 1 - v}) < radius;
+            if (border || !(depth[p] - closed[p] > slit_depth) ||
+                !between_walls(image, u, v, closed[p] + slit_depth, radius))
+                closed[p] = depth[p];
+        }
+    return closed;
+}
+
+void negate(std::vector<float>& depth) {
+    for (float& d : depth) d = -d;
+}
+
+} // namespace
+
+ClosedDepths close_depths(const AxisRays& rays, int n, double radius) {
+    ClosedDepths out{rays.depth[0], rays.depth[1]};
+    if (radius < 1) return out;
+    out.front = close(rays.depth[0], n, radius);
+    negate(out.back);
+    out.back = close(out.back, n, radius);
+    negate(out.back);
+    for (std::size_t p = 0; p < out.front.size(); ++p)
+        if (out.front[p] == no_depth || out.back[p] == -no_depth || out.front[p] > out.back[p]) {
+            out.front[p] = rays.depth[0][p];
+            out.back[p] = rays.depth[1][p];
+        }
+    return out;
+}
+
+} // namespace glcast

@@ -1,0 +1,160 @@
+#include "tools/reconstruct/quads.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <tbb/parallel_for.h>
+
+#include "tools/reconstruct/crossings.h"
+#include "tools/reconstruct/patches.h"
+#include "tools/reconstruct/vertices.h"
+
+namespace glcast {
+namespace {
+
+constexpr double level = 2e-3; // samples: both diagonals pass the crossing at the same height
+
+/// The cells of a row from the x asked last on; x never decreases.
+class RowCursor {
+  public:
+    RowCursor(const CellGrid& grid, int y, int z) {
+        if (y < 0 || z < 0) return;
+        at = grid.cells.data() + grid.row_start[grid.row(y, z)];
+        end = grid.cells.data() + grid.row_start[grid.row(y, z) + 1];
+    }
+    void forward(int x) {
+        while (at != end && at->x < x) ++at;
+    }
+    /// x is that of forward() or the next.
+    const Cell& cell(int x) const {
+        const Cell* found = at != end && at->x < x ? at + 1 : at;
+        if (found >= end || found->x != x)
+            throw std::logic_error("a sign-changing edge has no cell beside it");
+        return *found;
+    }
+
+  private:
+    const Cell *at = nullptr, *end = nullptr;
+};
+
+std::uint32_t vertex_of(const Cell& cell, int edge) {
+    return cell.first + patch_table().patch[cell.config][cell.flipped][edge];
+}
+
+int edge_index(int axis, int corner) {
+    for (int k = 0; k < 4; ++k)
+        if (edge_corner(4 * axis + k) == corner) return 4 * axis + k;
+    throw std::logic_error("no such edge");
+}
+
+/// Twice the area of abc seen along the axis (b and c are the next axes).
+double area_along(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, int b, int c) {
+    return (q[b] - p[b]) * (r[c] - p[c]) - (q[c] - p[c]) * (r[b] - p[b]);
+}
+
+/// A quad about a lattice edge: corners counter-clockwise seen from +axis.
+struct Quad {
+    glm::dvec3 corner[4];
+    int axis;
+    glm::dvec3 low; ///< the edge's lower end, samples
+
+    /// Height along the axis at which the split along diagonal d, d + 2 meets the edge, and whether its two
+    /// triangles face the same way.
+    bool split(int d, double& height) const {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        const glm::dvec3 &p = corner[d], &q = corner[d + 1], &r = corner[d + 2], &s = corner[(d + 3) % 4];
+        const bool fair = area_along(p, q, r, b, c) > 1e-6 && area_along(p, r, s, b, c) > 1e-6;
+        const glm::dvec3& third = area_along(p, r, low, b, c) > 0 ? s : q;
+        const double all = area_along(p, r, third, b, c);
+        if (std::abs(all) < 1e-9) {
+            height = 0.5 * (p[axis] + r[axis]);
+            return fair;
+        }
+        const double at_third = area_along(p, r, low, b, c) / all,
+                     at_r = area_along(p, low, third, b, c) / all;
+        height = at_third * third[axis] + at_r * r[axis] + (1 - at_third - at_r) * p[axis];
+        return fair;
+    }
+};
+
+/// 0 or 1: the corner where the better diagonal starts. It is the one that passes nearer to the crossing.
+int better_diagonal(const Quad& quad, const Crossing& crossing) {
+    double height[2];
+    const bool fair[2] = {quad.split(0, height[0]), quad.split(1, height[1])};
+    if (fair[0] != fair[1]) return fair[1];
+    if (crossing.supported && std::abs(height[0] - height[1]) > level)
+        return std::abs(height[1] - crossing.at) < std::abs(height[0] - crossing.at);
+    const glm::dvec3 first = quad.corner[2] - quad.corner[0], second = quad.corner[3] - quad.corner[1];
+    return glm::dot(second, second) < glm::dot(first, first) - 1e-9;
+}
+
+class Layer {
+  public:
+    Layer(const Rays& rays, const CellGrid& grid, const std::vector<glm::dvec3>& positions, Triangle* out)
+        : rays(rays), grid(grid), positions(positions), out(out) {}
+    void run(int z) {
+        for (int y = 0; y <= grid.n; ++y) run_row(y, z);
+    }
+    std::size_t unsupported = 0;
+
+  private:
+    void run_row(int y, int z) {
+        // rows[i]: bit 0 of i is one back in y, bit 1 one back in z
+        RowCursor rows[4] = {{grid, y, z}, {grid, y - 1, z}, {grid, y, z - 1}, {grid, y - 1, z - 1}};
+        for (std::size_t i = grid.row_start[grid.row(y, z)]; i < grid.row_start[grid.row(y, z) + 1]; ++i) {
+            const Cell& cell = grid.cells[i];
+            for (RowCursor& row : rows) row.forward(cell.x - 1);
+            const int corner = cell.config & 1;
+            for (int axis = 0; axis < 3; ++axis)
+                if ((cell.config >> (1 << axis) & 1) != corner) add_quad(rows, cell.x, y, z, axis, corner);
+        }
+    }
+
+    void add_quad(const RowCursor (&rows)[4], int x, int y, int z, int axis, bool low_filled) {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        const auto low = cell_sample(x, y, z, 0);
+        // Around the edge, seen from +axis: bit 0 is one back in b, bit 1 one back in c.
+        constexpr int around[4] = {3, 2, 0, 1};
+        std::uint32_t vertex[4];
+        Quad quad{{}, axis, glm::dvec3(low[0], low[1], low[2])};
+        for (int k = 0; k < 4; ++k) {
+            const int corner = (around[k] & 1) << b | (around[k] >> 1) << c;
+            const Cell& cell = rows[corner >> 1].cell(x - (corner & 1));
+            vertex[k] = vertex_of(cell, edge_index(axis, corner));
+            quad.corner[k] = positions[vertex[k]];
+        }
+        const Crossing crossing = find_crossing(rays, axis, low, low_filled);
+        unsupported += !crossing.supported;
+        const int d = better_diagonal(quad, crossing);
+        Triangle triangles[2] = {{vertex[d], vertex[d + 1], vertex[d + 2]},
+                                 {vertex[d], vertex[d + 2], vertex[(d + 3) % 4]}};
+        for (Triangle& triangle : triangles) {
+            if (!low_filled) std::swap(triangle[1], triangle[2]);
+            *out++ = triangle;
+        }
+    }
+
+    const Rays& rays;
+    const CellGrid& grid;
+    const std::vector<glm::dvec3>& positions;
+    Triangle* out;
+};
+
+} // namespace
+
+std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
+                                     const std::vector<glm::dvec3>& positions, QuadReport& report) {
+    std::vector<Triangle> triangles(2 * grid.quad_start.back());
+    std::atomic<std::size_t> unsupported = 0;
+    tbb::parallel_for(0, grid.n + 1, [&](int z) {
+        Layer layer(rays, grid, positions, triangles.data() + 2 * grid.quad_start[z]);
+        layer.run(z);
+        unsupported += layer.unsupported;
+    });
+    report = {grid.quad_start.back(), unsupported};
+    return triangles;
+}
+
+} // namespace glcast

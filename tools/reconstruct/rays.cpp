@@ -1,0 +1,129 @@
+#include "tools/reconstruct/rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tbb/parallel_for.h>
+
+#include "tools/reconstruct/closing.h"
+#include "tools/reconstruct/planes.h"
+
+namespace glcast {
+namespace {
+
+const ViewImage& find_view(std::span<const ViewImage> images, Axis axis, Side side, int n) {
+    const View wanted{axis, side, 0};
+    const auto found = std::find_if(images.begin(), images.end(), [&](auto& i) { return i.view == wanted; });
+    const std::string name = {side == Side::minus ? '-' : '+', "xyz"[static_cast<int>(axis)]};
+    if (found == images.end()) throw std::runtime_error("the capture has no view " + name);
+    const std::size_t pixels = std::size_t(n) * n;
+    if (found->n != n || found->depth.size() != pixels || found->colour.size() != pixels ||
+        found->normal.size() != pixels)
+        throw std::runtime_error("view " + name + " has another size than the others");
+    return *found;
+}
+
+/// A pixel counts as hit when one side saw something; what only one side saw has no thickness.
+void read_depths(AxisRays& rays, int n) {
+    const std::size_t pixels = std::size_t(n) * n;
+    for (auto& depth : rays.depth) depth.resize(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        float ends[2] = {no_depth, -no_depth};
+        for (int side = 0; side < 2; ++side) {
+            const float z = rays.image[side]->depth[p];
+            if (rays.image[side]->covered(p) && z >= 0 && z <= 1) ends[side] = z * n - 0.5f;
+        }
+        if (ends[0] == no_depth) ends[0] = -ends[1];
+        if (ends[1] == -no_depth) ends[1] = ends[0] == no_depth ? -no_depth : ends[0];
+        if (ends[0] == no_depth && ends[1] != -no_depth) ends[0] = ends[1];
+        if (std::isfinite(ends[0]) && ends[0] > ends[1]) std::swap(ends[0], ends[1]);
+        rays.depth[0][p] = ends[0];
+        rays.depth[1][p] = ends[1];
+    }
+}
+
+struct Span {
+    float front, back;
+    bool hit() const { return front < no_depth; }
+    bool holds_sample() const { return hit() && std::ceil(front) <= std::floor(back); }
+    float middle() const { return 0.5f * (front + back); }
+};
+
+Span span_at(const AxisRays& rays, int n, int u, int v) {
+    if (u < 0 || v < 0 || u >= n || v >= n) return {no_depth, -no_depth};
+    const std::size_t p = std::size_t(v) * n + u;
+    return {rays.depth[0][p], rays.depth[1][p]};
+}
+
+/// Between two samples: the last sliver of a thick body, where it curves away from the ray, or a sheet? A
+/// sliver has the thick body on one side and nothing on the other.
+bool is_sheet(const AxisRays& rays, int n, int u, int v) {
+    const Span here = span_at(rays, n, u, v);
+    for (int dv = -1; dv <= 1; ++dv)
+        for (int du = -1; du <= 1; ++du) {
+            if (!du && !dv) continue;
+            const Span body = span_at(rays, n, u + du, v + dv);
+            const Span beyond = span_at(rays, n, u - du, v - dv);
+            const bool thick =
+                body.holds_sample() && body.front < here.back + 1 && body.back > here.front - 1;
+            const bool open = !beyond.hit() || beyond.front > here.back + 1 || beyond.back < here.front - 1;
+            if (thick && open) return false;
+        }
+    return true;
+}
+
+void find_samples(AxisRays& rays, int n, const ClosedDepths& closed) {
+    const std::size_t pixels = std::size_t(n) * n;
+    rays.first.assign(pixels, 32767);
+    rays.last.assign(pixels, -1);
+    rays.sheet.assign(pixels, 0);
+    rays.row_has_sheet.assign(n, 0);
+    for (int v = 0; v < n; ++v)
+        for (int u = 0; u < n; ++u) {
+            const std::size_t p = std::size_t(v) * n + u;
+            const Span span{closed.front[p], closed.back[p]};
+            if (!span.hit()) continue;
+            if (span.holds_sample()) {
+                rays.first[p] = std::int16_t(std::ceil(span.front));
+                rays.last[p] = std::int16_t(std::floor(span.back));
+            } else if (is_sheet(rays, n, u, v)) {
+                rays.first[p] = rays.last[p] =
+                    std::int16_t(std::clamp(int(std::lround(span.middle())), 0, n - 1));
+                rays.sheet[p] = rays.row_has_sheet[v] = 1;
+            }
+        }
+}
+
+} // namespace
+
+bool Rays::filled(const std::array<int, 3>& s) const {
+    if (!inside(s)) return false;
+    bool all = true;
+    for (int a = 0; a < 3; ++a) {
+        const bool left = left_by(a, s);
+        if (left && axis[a].sheet[pixel(a, s)]) return true;
+        all &= left;
+    }
+    return all;
+}
+
+Rays make_rays(std::span<const ViewImage> images, double close_gaps) {
+    if (images.empty()) throw std::runtime_error("the capture has no views");
+    Rays rays;
+    rays.n = images.front().n;
+    if (rays.n < min_resolution || rays.n > max_resolution)
+        throw std::runtime_error("resolution " + std::to_string(rays.n) + " is not in " +
+                                 std::to_string(min_resolution) + ".." + std::to_string(max_resolution));
+    for (int a = 0; a < 3; ++a)
+        for (int side = 0; side < 2; ++side)
+            rays.axis[a].image[side] = &find_view(images, Axis(a), Side(side), rays.n);
+    tbb::parallel_for(0, 3, [&](int a) {
+        read_depths(rays.axis[a], rays.n);
+        find_samples(rays.axis[a], rays.n, close_depths(rays.axis[a], rays.n, close_gaps));
+    });
+    find_planes(rays);
+    return rays;
+}
+
+} // namespace glcast
