@@ -5,8 +5,8 @@
 namespace glcast::preload {
 
 /// dlsym and dlopen of whoever comes after us: the C library, or another preload.
-using DlsymFunction = void* (*)(void* handle, const char* name);
-using DlopenFunction = void* (*)(const char* file, int flags);
+using DlsymFunction = void* (*)(void* handle, const char* name) noexcept; // or they would not be tail-called
+using DlopenFunction = void* (*)(const char* file, int flags) noexcept;
 DlsymFunction real_dlsym();
 DlopenFunction real_dlopen();
 
