@@ -54,21 +54,31 @@ double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubled_ar
     return squares > 0 ? 2 * std::sqrt(3.0) * doubled_area / squares : 0;
 }
 
-/// Offset from `middle` to where the quadric, held near the middle, is least.
+/// Minus half the quadric's gradient.
+Vec3d pull(const Quadric& q, const Vec3d& p) {
+    return {-(q.xx() * p[0] + q.xy() * p[1] + q.xz() * p[2] + q.xw()),
+            -(q.xy() * p[0] + q.yy() * p[1] + q.yz() * p[2] + q.yw()),
+            -(q.xz() * p[0] + q.yz() * p[1] + q.zz() * p[2] + q.zw())};
+}
+
+/// Where the quadric, held near the middle, is least. The second step is held near the first one's end: it
+/// takes away what the hold did to the directions in which the quadric does care, so that corners stay exact.
 Vec3d least(const Quadric& q, const Vec3d& middle) {
     const double hold = stay_near_middle * (q.xx() + q.yy() + q.zz());
     const double xx = q.xx() + hold, yy = q.yy() + hold, zz = q.zz() + hold;
-    const Vec3d b(-(q.xx() * middle[0] + q.xy() * middle[1] + q.xz() * middle[2] + q.xw()),
-                  -(q.xy() * middle[0] + q.yy() * middle[1] + q.yz() * middle[2] + q.yw()),
-                  -(q.xz() * middle[0] + q.yz() * middle[1] + q.zz() * middle[2] + q.zw()));
     const double c00 = yy * zz - q.yz() * q.yz(), c01 = q.xz() * q.yz() - q.xy() * zz,
                  c02 = q.xy() * q.yz() - q.xz() * yy, c11 = xx * zz - q.xz() * q.xz(),
                  c12 = q.xy() * q.xz() - xx * q.yz(), c22 = xx * yy - q.xy() * q.xy();
     const double determinant = xx * c00 + q.xy() * c01 + q.xz() * c02;
-    if (!(determinant > 0)) return Vec3d(0, 0, 0);
-    return Vec3d(c00 * b[0] + c01 * b[1] + c02 * b[2], c01 * b[0] + c11 * b[1] + c12 * b[2],
-                 c02 * b[0] + c12 * b[1] + c22 * b[2]) /
-           determinant;
+    if (!(determinant > 0)) return middle;
+    Vec3d p = middle;
+    for (int step = 0; step < 2; ++step) {
+        const Vec3d b = pull(q, p);
+        p += Vec3d(c00 * b[0] + c01 * b[1] + c02 * b[2], c01 * b[0] + c11 * b[1] + c12 * b[2],
+                   c02 * b[0] + c12 * b[1] + c22 * b[2]) /
+             determinant;
+    }
+    return p;
 }
 
 struct Placement {
@@ -156,9 +166,9 @@ struct Collapser::Impl {
         Quadric q = quadrics[v0.idx()];
         q += quadrics[v1.idx()];
         const double shape = prefer_short_edges * (q.xx() + q.yy() + q.zz()) * squared_length;
-        const Vec3d offset = least(q, middle);
-        Placement best{middle + offset, q(middle + offset)};
-        if (offset.sqrnorm() > 4 * squared_length) { // far off: two planes almost parallel
+        const Vec3d point = least(q, middle);
+        Placement best{point, q(point)};
+        if ((point - middle).sqrnorm() > 4 * squared_length) { // far off: two planes almost parallel
             best = {middle, q(middle)};
             for (const Vec3d& p : {p0, p1})
                 if (const double at = q(p); at < best.cost) best = {p, at};
