@@ -106,11 +106,11 @@ const GlTable& real_table() {
     return table;
 }
 
-void resolve(GlCall call) {
-    GlProc function = real_or_nothing(gl_call_names[static_cast<std::size_t>(call)]);
-    if (shadows_calls() && record::always_shadowed(call))
-        function = slot(const_cast<GlTable&>(record::table()), call);
+const GlTable& resolve(GlCall call) {
+    if (shadows_calls() && record::always_shadowed(call)) return recording_table();
+    const GlProc function = real_or_nothing(gl_call_names[static_cast<std::size_t>(call)]);
     __atomic_store_n(&slot(idle, call), function, __ATOMIC_RELAXED);
+    return idle;
 }
 
 } // namespace glcast::preload

@@ -12,6 +12,7 @@
 #include "shim/preload/cast.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
+#include "shim/preload/stub.h"
 
 namespace glcast::preload {
 namespace {
@@ -56,8 +57,9 @@ Session& session() {
 struct ThreadState {
     NativeContext* context;
     std::uintptr_t drawable;
+    bool known; ///< to the recorder
 };
-constinit thread_local ThreadState thread_state{nullptr, 0};
+constinit thread_local ThreadState thread_state{nullptr, 0, false};
 
 /// The one place where exceptions end: the shim gives up, the program goes on.
 template <class Work> void guarded(Work&& work) noexcept {
@@ -178,6 +180,14 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 thread_local int Outermost::depth = 0;
 
+const GlTable& recording_table() {
+    if (!thread_state.known) [[unlikely]] {
+        record::set_current(nullptr, real_table());
+        thread_state.known = true;
+    }
+    return record::table();
+}
+
 bool shadows_calls() { return session().options.armed; }
 
 void context_made(const WindowSystem& system, void* display, void* handle, void* share,
@@ -230,7 +240,7 @@ void made_current(const Binding& binding) noexcept {
                 if (before != now) forget_if_unused(s, before);
             }
         }
-        thread_state = {now, binding.draw};
+        thread_state = {now, binding.draw, true};
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
         if (!now || !now->shadow) return;
         announce(s, *now->system);

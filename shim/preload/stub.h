@@ -14,16 +14,20 @@
 
 namespace glcast::preload {
 
-/// What the stubs call while nothing is recorded: the real function, or the recorder's where the call is
-/// shadowed always (record::always_shadowed). Constant-initialised with thunks that look the function up at
-/// its first call.
+/// What the stubs call while nothing is recorded: real functions. Constant-initialised with thunks that look
+/// the function up at its first call; where the call is shadowed always (record::always_shadowed), the thunk
+/// stays and goes to the recorder.
 extern GlTable idle __attribute__((visibility("hidden")));
 
 /// The exported stubs, indexed by GlCall.
 extern const GlProc stubs[gl_call_count] __attribute__((visibility("hidden")));
 
-/// Put the right function for a call into `idle`.
-void resolve(GlCall call);
+/// The table to find a call in at its first use: `idle`, with the real function put there from now on, or the
+/// recorder's where the call is shadowed always.
+const GlTable& resolve(GlCall call);
+
+/// The recorder's, after making this thread known to it.
+const GlTable& recording_table();
 
 } // namespace glcast::preload
 
@@ -34,11 +38,8 @@ void resolve(GlCall call);
     extern "C" GLCAST_EXPORT RESULT APIENTRY gl##NAME##_stub PARAMETERS {                                    \
         if (glcast::record::active.load(std::memory_order_relaxed) == 0) [[likely]]                          \
             return glcast::preload::idle.NAME ARGUMENTS;                                                     \
-        return glcast::record::table().NAME ARGUMENTS;                                                       \
+        return glcast::preload::recording_table().NAME ARGUMENTS;                                            \
     }                                                                                                        \
     namespace glcast::preload::thunk {                                                                       \
-    RESULT APIENTRY NAME PARAMETERS {                                                                        \
-        resolve(GlCall::NAME);                                                                               \
-        return idle.NAME ARGUMENTS;                                                                          \
-    }                                                                                                        \
+    RESULT APIENTRY NAME PARAMETERS { return resolve(GlCall::NAME).NAME ARGUMENTS; }                         \
     }
