@@ -23,6 +23,7 @@ struct Level {
     Mesh mesh;
     std::string name; ///< "level 0", ...
     double mean_error = 0, max_error = 0; ///< measured against level 0, model units
+    double sample = 0; ///< lattice spacing of the capture it was made from, model units; 0 when unknown
 };
 
 } // namespace glcast

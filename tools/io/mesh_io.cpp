@@ -1,0 +1,162 @@
+#include "tools/io/mesh_io.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "capture/output_file.h"
+#include "tools/io/mesh_format.h"
+
+namespace glcast {
+namespace format {
+
+void refuse(const std::string& why) { throw std::runtime_error(why); }
+
+std::vector<Level> one_level(Mesh mesh) {
+    std::vector<Level> levels(1);
+    levels[0].mesh = std::move(mesh);
+    levels[0].name = "level 0";
+    return levels;
+}
+
+static std::pair<glm::dvec3, glm::dvec3> bounds(const Mesh& mesh) {
+    if (mesh.positions.empty()) return {};
+    glm::dvec3 lo = mesh.positions[0], hi = lo;
+    for (const glm::dvec3& p : mesh.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
+    return {lo, hi};
+}
+
+glm::dvec3 centre(const Mesh& mesh) {
+    const auto [lo, hi] = bounds(mesh);
+    return (lo + hi) * 0.5;
+}
+
+bool needs_doubles(const Mesh& mesh) {
+    const auto [lo, hi] = bounds(mesh);
+    const glm::dvec3 far = glm::max(glm::abs(lo), glm::abs(hi));
+    return std::max({far.x, far.y, far.z}) > 16 * glm::length(hi - lo);
+}
+
+void add_fan(Mesh& mesh, std::span<const std::uint32_t> corners) {
+    for (std::size_t k = 2; k < corners.size(); ++k)
+        mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+// IEC 61966-2-1
+float to_linear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float to_display(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+
+} // namespace format
+
+namespace {
+
+using Reader = std::vector<Level> (*)(std::string_view);
+using Writer = bool (*)(OutputFile&, const Mesh&);
+
+struct Format {
+    const char* extension;
+    Reader read;
+    Writer write;     ///< one level
+    bool many_levels; ///< written by write_glb
+};
+
+constexpr Format formats[] = {
+    {".glb", format::read_glb, nullptr, true},
+    {".obj", format::read_obj, format::write_obj, false},
+    {".ply", format::read_ply, format::write_ply, false},
+    {".off", format::read_off, format::write_off, false},
+    {".stl", format::read_stl, nullptr, false},
+};
+
+const Format& format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const Format& f : formats)
+        if (extension == f.extension) return f;
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .stl");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+    std::error_code code;
+    if (std::filesystem::is_directory(path, code)) format::refuse("is a folder");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) format::refuse(std::strerror(errno));
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (bytes.empty()) format::refuse("the file is empty");
+    return bytes;
+}
+
+/// What must be true of a mesh from anywhere: corners that exist, finite positions, unit normals, colours in
+/// 0..1.
+void tidy(Mesh& mesh) {
+    if (mesh.triangles.empty()) format::refuse("holds no triangles");
+    const std::size_t vertices = mesh.positions.size();
+    for (const Triangle& t : mesh.triangles)
+        for (std::uint32_t v : t)
+            if (v >= vertices)
+                format::refuse("a face has corner " + std::to_string(v) + " of " + std::to_string(vertices) +
+                               " vertices");
+    for (const glm::dvec3& p : mesh.positions)
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            format::refuse("a position is not finite");
+    if (mesh.normals.size() != vertices) mesh.normals.clear();
+    if (mesh.colours.size() != vertices) mesh.colours.clear();
+    for (glm::vec3& n : mesh.normals) {
+        const float length = glm::length(n);
+        n = std::isfinite(length) && length > 0 ? n / length : glm::vec3(0, 0, 1);
+    }
+    for (glm::vec3& c : mesh.colours)
+        for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
+}
+
+std::filesystem::path level_path(const std::filesystem::path& path, std::size_t level) {
+    if (level == 0) return path;
+    std::filesystem::path name = path.parent_path() / path.stem();
+    name += ".lod" + std::to_string(level) + path.extension().string();
+    return name;
+}
+
+void require(bool ok, const OutputFile& file) {
+    if (!ok) throw std::runtime_error(file.error());
+}
+
+} // namespace
+
+std::vector<Level> read_levels(const std::filesystem::path& path) {
+    try {
+        const Format& f = format_of(path);
+        std::vector<Level> levels = f.read(read_file(path));
+        for (Level& level : levels) tidy(level.mesh);
+        return levels;
+    } catch (const std::exception& e) {
+        throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());
+    }
+}
+
+Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels(path).front().mesh); }
+
+std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
+                                                std::span<const Level> levels) {
+    const Format& f = format_of(path);
+    if (!f.write && !f.many_levels)
+        format::refuse("cannot write '" + path.string() + "': " + f.extension +
+                       " is read only; take .glb, .obj, .ply or .off");
+    if (levels.empty()) throw std::logic_error("no levels to write");
+    std::vector<std::filesystem::path> names;
+    std::deque<OutputFile> files; // all are written before the first appears
+    const std::size_t count = f.many_levels ? 1 : levels.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        OutputFile& file = files.emplace_back(names.emplace_back(level_path(path, k)).string());
+        require(f.many_levels ? format::write_glb(file, levels) : f.write(file, levels[k].mesh), file);
+    }
+    for (OutputFile& file : files) require(file.commit(), file);
+    return names;
+}
+
+} // namespace glcast
