@@ -42,7 +42,7 @@ class Capture {
   public:
     Capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options, const ImageSink& sink,
             EngineReport& report)
-        : gl(gl), options(options), sink(sink), report(report), passes(gl, draw, options.eye_to_capture) {}
+        : gl(gl), options(options), sink(sink), report(report), passes(gl, draw, options) {}
 
     void run() {
         report.error = obstacle(gl, options.n);
@@ -154,7 +154,7 @@ std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const E
     try {
         const auto real = std::make_unique<GlTable>(with_framebuffer_calls(gl));
         if (!obstacle(*real, options.n).empty()) return std::nullopt;
-        PassRunner passes(*real, draw, options.eye_to_capture);
+        PassRunner passes(*real, draw, options);
         return find_box_with(*real, passes, options);
     } catch (...) {
         return std::nullopt;

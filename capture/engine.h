@@ -27,10 +27,15 @@ struct EngineOptions {
     NormalMethod normals = NormalMethod::signed_lights;
     std::optional<Box> box;         ///< given, or found by drawing
     glm::dmat4 eye_to_capture{1.0}; ///< C: from the scene's eye space to the capture frame, a similarity
-    Box search{glm::dvec3(-1.0),
-               2.0}; ///< where the box search starts, capture frame; it grows while the scene touches it
-    bool use_float_targets =
-        true; ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
+    /// Where the box search starts, capture frame; it grows while the scene touches its sides.
+    Box search{glm::dvec3(-1.0), 2.0};
+    bool mirrored_projection = false; ///< the program's own projection mirrors, so its winding is reversed
+    /// False: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has no float targets).
+    bool use_float_targets = true;
+}; ///< where the box search starts, capture frame; it grows while the scene touches it
+bool mirrored_projection = false; ///< the program's own projection mirrors, so its winding is reversed
+bool use_float_targets =
+    true; ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
 };
 
 struct EngineReport {

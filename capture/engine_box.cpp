@@ -54,8 +54,8 @@ void include(Bounds& bounds, const Extent& e, const Box& box, Axis axis, int m) 
     const double pixel = box.size / m;
     bounds.include(axes.depth, box.lo[axes.depth] + e.near * box.size, box.lo[axes.depth] + e.far * box.size);
     const auto across = [&](int along, int first, int last) {
-        const double a = box.lo[along] + (first + 1) * pixel, b = box.lo[along] + last * pixel;
-        bounds.include(along, std::min(a, b), std::max(a, b));
+        if (first < last)
+            bounds.include(along, box.lo[along] + (first + 1) * pixel, box.lo[along] + last * pixel);
     };
     across(axes.u, e.u0, e.u1);
     across(axes.v, e.v0, e.v1);
@@ -66,7 +66,8 @@ void include(Bounds& bounds, const Extent& e, const Box& box, Axis axis, int m) 
 
 /// Polygons are drawn as points too: their corners show however small or thin they are, and their extreme
 /// depths are the extremes of anything flat. Filled, they show where clip planes and holes end them.
-Bounds look_into(PassRunner& passes, const Target& target, const Box& box) {
+/// `until_cut`: once something touches a side of the box, the rest is not worth drawing.
+Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool until_cut) {
     Bounds bounds;
     std::vector<float> depth;
     Pass pass;
@@ -85,6 +86,7 @@ Bounds look_into(PassRunner& passes, const Target& target, const Box& box) {
             }
             target.read_depth(depth);
             include(bounds, extent_of(depth, target.size(), side), box, axis, target.size());
+            if (until_cut && bounds.touches) return bounds;
         }
     }
     return bounds;
@@ -105,15 +107,18 @@ std::optional<Box> search_box(PassRunner& passes, const Target& target, const Bo
     Box box = search;
     Bounds known;
     int growths = 0;
+    bool anything = false;
     for (int round = 0; round < max_rounds; ++round) {
-        const Bounds seen = look_into(passes, target, box);
-        if (seen.empty() && !known.empty())
-            break; // smaller than float depth can tell: keep what was seen before
-        if (seen.empty() || (seen.touches && growths < max_growths)) {
-            if (growths++ >= (seen.empty() ? max_empty_growths : max_growths)) return std::nullopt;
+        const bool may_grow = growths < (anything ? max_growths : max_empty_growths);
+        const Bounds seen = look_into(passes, target, box, may_grow);
+        anything |= !seen.empty();
+        if (seen.empty() && !known.empty()) break; // smaller than float depth can tell: keep what was seen
+        if (may_grow && (seen.empty() || seen.touches)) {
+            ++growths;
             box = grown(box);
             continue;
         }
+        if (seen.empty()) break;
         const bool settled = !known.empty() && moved(seen, known) < 0.25 * seen.extent() / n;
         known = seen;
         if (settled) break;

@@ -26,8 +26,9 @@ void paint_signed(PassRunner& passes, const Target& target, Pass pass, Pixels& n
     for (glm::vec4& pixel : normals) pixel = glm::vec4(glm::vec3(pixel) * 2.0f - 1.0f, pixel.a);
 }
 
-/// The paper's six: opposite lights give the positive and the negative part of a component. The paper takes the one that is
-/// not 0; inside a polygon that the terminator crosses neither is, and there their difference is right.
+/// The paper's six: opposite lights give the positive and the negative part of a component. The paper takes
+/// the one that is not 0; inside a polygon that the terminator crosses neither is, and there their difference
+/// is right.
 void paint_six(PassRunner& passes, const Target& target, Pass pass, Pixels& normals) {
     pass.lights = Lights::single;
     Pixels front, back;

@@ -92,8 +92,9 @@ void set_light(const GlTable& gl, GLenum light, const glm::vec4& towards, const 
 
 } // namespace
 
-PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const glm::dmat4& eye_to_capture)
-    : gl(gl), draw(draw), eye_to_capture(eye_to_capture) {}
+PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options)
+    : gl(gl), draw(draw), eye_to_capture(options.eye_to_capture),
+      mirrored_projection(options.mirrored_projection) {}
 
 void PassRunner::run(const Pass& pass, const Target& target) {
     set_state(pass, target);
@@ -176,7 +177,7 @@ bool PassRunner::mirrored(const Pass& pass) const {
     const bool right_handed = (axes.u + 1) % 3 == axes.v; // u x v = +depth
     const bool viewer_at_plus = pass.side == Side::plus;
     const bool reflected = glm::determinant(glm::dmat3(eye_to_capture)) < 0;
-    return (right_handed != viewer_at_plus) != reflected;
+    return (right_handed != viewer_at_plus) != (reflected != mirrored_projection);
 }
 
 } // namespace glcast

@@ -39,7 +39,7 @@ struct Pass {
 /// Draws passes into targets, and counts them.
 class PassRunner {
   public:
-    PassRunner(const GlTable& gl, const DrawFunction& draw, const glm::dmat4& eye_to_capture);
+    PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
     void run(const Pass& pass, const Target& target);
     int draws() const { return draw_count; }
 
@@ -53,6 +53,7 @@ class PassRunner {
     const GlTable& gl;
     const DrawFunction& draw;
     const glm::dmat4 eye_to_capture;
+    const bool mirrored_projection;
     int draw_count = 0;
 };
 
