@@ -126,14 +126,54 @@ int report(const Options& options, const Seen& seen, const std::string& ending) 
     const std::string name = fs::path(options.program[0]).filename().string();
     std::cerr << "glcast-run: " << name << " is cast in " << seen.capture << '\n';
     return 0;
-case Parsed::usage_error:
-    return 2;
-case Parsed::run:
-    return run(options);
 }
+
+int run(const Options& options) {
+    const fs::path program_file = find_program(options.program[0]), shim = find_shim();
+    if (const std::string trouble = check_all(options, program_file, shim); !trouble.empty()) {
+        return fail(trouble);
+    }
+    const int signals = take_signals();
+    StatusPipe pipe;
+    if (!pipe.ok()) {
+        return fail("cannot make a pipe in the folder for temporary files");
+    }
+    Display display;
+    if (options.headless) {
+        if (const std::string trouble = display.start(); !trouble.empty()) {
+            return fail(trouble);
+        }
+    }
+    Program program(options.quit || options.headless);
+    program.spare(display.pid());
+    const Environment changes = environment(options, pipe, shim, display);
+    if (const std::string trouble = program.start(program_file, options.program, changes); !trouble.empty()) {
+        return fail(trouble);
+    }
+    Seen seen;
+    std::optional<int> result;
+    const auto finished = [&] { result = report(options, seen, ""); };
+    const std::string ending = wait_for_cast(options, program, pipe, signals, seen, finished);
+    program.end(end_grace_ms);
+    pipe.read_into(seen); // a capture that was finished while the program was being ended counts
+    return result ? *result : report(options, seen, ending);
 }
-catch (const std::exception& error) {
-    return fail(error.what());
-}
-return 1;
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    try {
+        switch (parse_options(argc, argv, options)) {
+        case Parsed::done:
+            return 0;
+        case Parsed::usage_error:
+            return 2;
+        case Parsed::run:
+            return run(options);
+        }
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+    return 1;
 }
