@@ -32,10 +32,6 @@ struct EngineOptions {
     bool mirrored_projection = false; ///< the program's own projection mirrors, so its winding is reversed
     /// False: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has no float targets).
     bool use_float_targets = true;
-}; ///< where the box search starts, capture frame; it grows while the scene touches it
-bool mirrored_projection = false; ///< the program's own projection mirrors, so its winding is reversed
-bool use_float_targets =
-    true; ///< false: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has none)
 };
 
 struct EngineReport {
