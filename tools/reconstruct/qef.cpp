@@ -93,12 +93,18 @@ void Quadric::add(const glm::vec3& point, const glm::vec3& normal, float weight)
     b[0] += weight * x * d;
     b[1] += weight * y * d;
     b[2] += weight * z * d;
+    c += weight * d * d;
     add(point, weight);
 }
 
 void Quadric::add(const glm::vec3& point, float weight) {
     points += point * weight;
     weights += weight;
+}
+
+float Quadric::distance(const glm::vec3& x) const {
+    const Matrix planes{Row{a[0], a[1], a[2]}, Row{a[1], a[3], a[4]}, Row{a[2], a[4], a[5]}};
+    return float(std::sqrt(std::max(0.0, energy(planes, {b[0], b[1], b[2]}, {x.x, x.y, x.z}) + c)));
 }
 
 glm::vec3 Quadric::minimum(const glm::vec3& lo, const glm::vec3& hi) const {

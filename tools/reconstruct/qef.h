@@ -15,11 +15,14 @@ class Quadric {
     void add(const glm::vec3& point, float weight);
     /// The minimum within lo..hi (exact: the constrained problem, not a clipped free one).
     glm::vec3 minimum(const glm::vec3& lo, const glm::vec3& hi) const;
+    /// Root of the sum of weighted squared distances of x to the planes.
+    float distance(const glm::vec3& x) const;
     glm::vec3 mean() const { return points / weights; }
 
   private:
     double a[6] = {}; ///< xx xy xz yy yz zz
     double b[3] = {};
+    double c = 0;
     glm::vec3 points{0};
     float weights = 0;
 };

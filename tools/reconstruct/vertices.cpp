@@ -11,11 +11,22 @@ namespace glcast {
 namespace {
 
 constexpr float estimated_weight = 0.25f;
+constexpr float sharp = 0.02f;  // samples: planes that cannot all be met within the cell
+constexpr float leeway = 0.25f; // samples beyond the cell that a vertex may go to meet them
 constexpr float margin = 1e-3f; // off the cell's sides, so that vertices of neighbours never coincide
 
 struct Patch {
     Quadric quadric;
     glm::vec3 lo{margin}, hi{1 - margin}; ///< the cell; a sheet's true depth may lie a little outside
+
+    /// In the cell; but where an edge of the body passes just beside the cell, on that edge.
+    glm::vec3 vertex() const {
+        const glm::vec3 inside = quadric.minimum(lo, hi);
+        const float off = quadric.distance(inside);
+        if (off < sharp) return inside;
+        const glm::vec3 beside = quadric.minimum(lo - leeway, hi + leeway);
+        return quadric.distance(beside) < 0.25f * off ? beside : inside;
+    }
 };
 
 void add_crossing(Patch& patch, const Crossing& crossing, int axis, const glm::vec3& corner, float origin) {
@@ -43,8 +54,7 @@ void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<gl
                      float(origin[axis]));
     }
     for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k) {
-        const glm::vec3 local = patches[k].quadric.minimum(patches[k].lo, patches[k].hi);
-        positions[cell.first + k] = glm::dvec3(local) + glm::dvec3(origin[0], origin[1], origin[2]);
+        positions[cell.first + k] = glm::dvec3(patches[k].vertex()) + glm::dvec3(origin[0], origin[1], origin[2]);
     }
 }
 
