@@ -6,14 +6,16 @@
 #include "tools/simplify/collapser.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Utils/HeapT.hh>
 // After the mesh: it uses vector_traits without including them.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <queue>
 #include <stdexcept>
 
 namespace glcast {
@@ -86,18 +88,14 @@ struct Placement {
     double cost;
 };
 
-/// Cheapest first; equal costs by index, so that the order never depends on anything else.
-struct HeapOrder {
-    std::vector<double>* cost;
-    std::vector<int>* position;
-    bool less(EdgeHandle a, EdgeHandle b) const {
-        const double ca = (*cost)[a.idx()], cb = (*cost)[b.idx()];
-        return ca < cb || (ca == cb && a.idx() < b.idx());
-    }
-    bool greater(EdgeHandle a, EdgeHandle b) const { return less(b, a); }
-    int get_heap_position(EdgeHandle e) const { return (*position)[e.idx()]; }
-    void set_heap_position(EdgeHandle e, int at) { (*position)[e.idx()] = at; }
-};
+/// Cost and edge in one number that sorts by cost, then by edge: floats that are not negative sort like their
+/// bits. Half the size of a pair, and a heap of plain numbers is several times as fast as one that looks
+/// costs up.
+using Entry = std::uint64_t;
+Entry entry_of(double cost, EdgeHandle edge) {
+    return Entry(std::bit_cast<std::uint32_t>(float(cost))) << 32 | std::uint32_t(edge.idx());
+}
+EdgeHandle edge_of(Entry entry) { return EdgeHandle(int(entry & UINT32_MAX)); }
 
 } // namespace
 
@@ -109,9 +107,11 @@ struct Collapser::Impl {
     std::vector<Quadric> quadrics;
     std::vector<std::uint32_t> sources;
     std::vector<bool> moved;
-    std::vector<double> cost;       ///< by edge
-    std::vector<int> heap_position; ///< by edge, -1: not on the heap
-    OpenMesh::Utils::HeapT<EdgeHandle, HeapOrder> heap{HeapOrder{&cost, &heap_position}};
+    /// Every edge that lives is here, once, or refused. Costs only grow as quadrics are added up, so a cost
+    /// that is out of date is a lower bound: it is enough to take it anew when the edge comes to the top.
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
+    std::vector<bool> refused;      ///< by edge: not allowed when its turn came
+    std::vector<bool> near_refused; ///< by vertex: it may have such an edge
     std::size_t live_triangles = 0;
     std::size_t stage = 0;
 
@@ -177,22 +177,25 @@ struct Collapser::Impl {
         return best;
     }
 
-    void queue(EdgeHandle edge) {
-        cost[edge.idx()] = place(edge).cost;
-        requeue(edge);
-    }
-    void requeue(EdgeHandle edge) {
-        if (heap.is_stored(edge))
-            heap.update(edge);
-        else
-            heap.insert(edge);
+    void build_heap() {
+        std::vector<Entry> entries;
+        entries.reserve(mesh.n_edges());
+        for (const EdgeHandle edge : mesh.edges()) entries.push_back(entry_of(place(edge).cost, edge));
+        heap = decltype(heap)({}, std::move(entries));
+        refused.assign(mesh.n_edges(), false);
+        near_refused.assign(mesh.n_vertices(), false);
     }
 
-    void build_heap() {
-        cost.resize(mesh.n_edges());
-        heap_position.assign(mesh.n_edges(), -1);
-        heap.reserve(mesh.n_edges());
-        for (const EdgeHandle edge : mesh.edges()) queue(edge);
+    void refuse(EdgeHandle edge, HalfedgeHandle half) {
+        refused[edge.idx()] = true;
+        near_refused[mesh.from_vertex_handle(half).idx()] = true;
+        near_refused[mesh.to_vertex_handle(half).idx()] = true;
+    }
+
+    void queue_again(EdgeHandle edge) {
+        if (!refused[edge.idx()]) return;
+        refused[edge.idx()] = false;
+        heap.push(entry_of(place(edge).cost, edge));
     }
 
     /// The link condition, and never a tetrahedron: that would leave two triangles back to back.
@@ -239,33 +242,43 @@ struct Collapser::Impl {
         mesh.set_point(kept, to);
         moved[kept.idx()] = true;
         live_triangles -= 2;
+        near_refused[kept.idx()] = near_refused[kept.idx()] || near_refused[gone.idx()];
         queue_around(kept);
     }
 
-    /// New costs for the edges at `v`; those beyond that were refused may be allowed now.
+    /// What was refused near `v` may be allowed now.
     void queue_around(VertexHandle v) {
-        for (auto edge = mesh.ve_iter(v); edge.is_valid(); ++edge) queue(*edge);
-        for (auto near = mesh.vv_iter(v); near.is_valid(); ++near)
-            for (auto edge = mesh.ve_iter(*near); edge.is_valid(); ++edge)
-                if (!heap.is_stored(*edge)) requeue(*edge);
+        queue_at(v);
+        for (auto near = mesh.cvv_iter(v); near.is_valid(); ++near) queue_at(*near);
+    }
+    void queue_at(VertexHandle v) {
+        if (!near_refused[v.idx()]) return;
+        for (auto edge = mesh.cve_iter(v); edge.is_valid(); ++edge) queue_again(*edge);
+        near_refused[v.idx()] = false;
     }
 
     void relax() {
         ++stage;
-        for (const EdgeHandle edge : mesh.edges()) // skips what is deleted
-            if (!heap.is_stored(edge)) requeue(edge);
+        for (const EdgeHandle edge : mesh.edges()) queue_again(edge); // skips what is deleted
     }
 
     bool collapse_cheapest() {
         while (!heap.empty()) {
-            const EdgeHandle edge = heap.front();
-            heap.pop_front();
+            const EdgeHandle edge = edge_of(heap.top());
+            heap.pop();
             if (mesh.status(edge).deleted()) continue;
             const Placement placement = place(edge);
+            const Entry entry = entry_of(placement.cost, edge);
+            if (!heap.empty() && entry > heap.top()) {
+                heap.push(entry);
+                continue;
+            }
             const HalfedgeHandle half = mesh.halfedge_handle(edge, 0);
-            if (!allowed(half, placement.point)) continue;
-            collapse(half, placement.point);
-            return true;
+            if (allowed(half, placement.point)) {
+                collapse(half, placement.point);
+                return true;
+            }
+            refuse(edge, half);
         }
         return false;
     }
