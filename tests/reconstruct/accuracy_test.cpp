@@ -122,7 +122,7 @@ TEST(Accuracy, WrongNormalsDoNotMoveTheSurface) {
         const Cast made = cast(*body, n, {}, edit);
         const Errors e = errors(made.mesh, *body, n);
         EXPECT_LT(e.there.mean, 0.003) << name;
-        EXPECT_LT(e.back.max, 0.15) << name;
+        EXPECT_LT(e.back.max, 0.25) << name;
     }
 }
 

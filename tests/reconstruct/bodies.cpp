@@ -218,7 +218,8 @@ std::vector<ViewImage> cast_body(const Body& body, const Box& box, int n, const 
                 const std::size_t at = std::size_t(j) * n + i;
                 const auto set = [&](ViewImage& image, double t, dvec3 normal, const glm::vec3& colour) {
                     if (edit) normal = edit(p + d * t, normal);
-                    image.depth[at] = float(t / box.size);
+                    image.depth[at] =
+                        float(std::clamp(t / box.size, 0.0, 1.0)); // cut off by the near and far planes
                     image.colour[at] = glm::vec4(colour, 1);
                     image.normal[at] = glm::vec4(glm::vec3(normal), 1);
                 };

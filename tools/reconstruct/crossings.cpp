@@ -184,7 +184,7 @@ Crossing find_crossing(const Rays& rays, int axis, const std::array<int, 3>& low
     const std::size_t pixel = rays.pixel(axis, e.filled);
     const AxisRays& along = rays.axis[axis];
     const float t = along.depth[e.side()][pixel], floor = float(low[axis]);
-    if (along.sheet[pixel] && along.first[pixel] == e.filled[axis])
+    if (along.sheet[pixel] && std::abs(t - float(e.filled[axis])) <= 1)
         return {sheet_side(along, pixel, e.side()), plane_of(rays, axis, e.side(), pixel), true};
     if (t >= floor - tolerance && t <= floor + 1 + tolerance)
         return {t, plane_of(rays, axis, e.side(), pixel), true};

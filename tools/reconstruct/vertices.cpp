@@ -54,7 +54,8 @@ void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<gl
                      float(origin[axis]));
     }
     for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k) {
-        positions[cell.first + k] = glm::dvec3(patches[k].vertex()) + glm::dvec3(origin[0], origin[1], origin[2]);
+        positions[cell.first + k] =
+            glm::dvec3(patches[k].vertex()) + glm::dvec3(origin[0], origin[1], origin[2]);
     }
 }
 
