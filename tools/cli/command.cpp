@@ -1,0 +1,59 @@
+#include "tools/cli/command.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <unistd.h>
+
+#include "capture/output_file.h"
+
+namespace glcast::cli {
+
+void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", line.c_str()); }
+
+Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
+    if (shown) std::fprintf(stderr, "glcast: %s ...", what.c_str());
+}
+
+Progress::~Progress() {
+    if (shown) std::fputs("\r\033[K", stderr);
+}
+
+void print_json(const nlohmann::ordered_json& object) {
+    const std::string text = object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::printf("%s\n", text.c_str());
+    if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to standard output");
+}
+
+void require_writable(const std::filesystem::path& path) {
+    const std::string why = why_not_writable(path.string());
+    if (!why.empty()) throw std::runtime_error(why);
+}
+
+nlohmann::ordered_json to_json(const MeshCheck& c) {
+    return {{"vertices", c.vertices},
+            {"edges", c.edges},
+            {"triangles", c.triangles},
+            {"components", c.components},
+            {"euler", c.euler},
+            {"boundaryEdges", c.boundary_edges},
+            {"nonManifoldEdges", c.non_manifold_edges},
+            {"nonManifoldVertices", c.non_manifold_vertices},
+            {"degenerateTriangles", c.degenerate_triangles},
+            {"unusedVertices", c.unused_vertices},
+            {"volume", c.volume},
+            {"area", c.area},
+            {"closedManifold", c.closed_manifold()}};
+}
+
+std::string summary(const MeshCheck& check) {
+    return std::to_string(check.triangles) + " triangles, " + std::to_string(check.edges) + " edges, " +
+           describe(check);
+}
+
+std::string number(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+} // namespace glcast::cli

@@ -1,0 +1,54 @@
+// What the subcommands share: how they are listed, and how they speak.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "tools/mesh/check.h"
+#include "tools/mesh/mesh.h"
+
+namespace glcast::cli {
+
+/// Runs a parsed command: the exit status, 0 or 1. Throws std::runtime_error with one line for the user.
+using Run = std::function<int()>;
+
+// Each declares its options and gives what to do when they are parsed.
+Run declare_mesh(CLI::App& app);
+Run declare_info(CLI::App& app);
+Run declare_compare(CLI::App& app);
+Run declare_render(CLI::App& app);
+
+/// A line to stderr: "glcast: ...".
+void say(const std::string& line);
+
+/// What is being done, on a terminal only, gone when done.
+class Progress {
+  public:
+    explicit Progress(const std::string& what);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+  private:
+    bool shown;
+};
+
+/// One object on stdout, nothing else.
+void print_json(const nlohmann::ordered_json& object);
+
+/// Throws when a file cannot be made at `path`: asked before hours of work, not after.
+void require_writable(const std::filesystem::path& path);
+
+/// Everything check_mesh counts.
+nlohmann::ordered_json to_json(const MeshCheck& check);
+
+/// "1234 triangles, 1851 edges, closed two-manifold"
+std::string summary(const MeshCheck& check);
+
+/// A number for people: six digits.
+std::string number(double value);
+
+} // namespace glcast::cli

@@ -1,0 +1,137 @@
+// glcast info: what is in a capture or a mesh, checked.
+#include <cstdio>
+#include <glm/common.hpp>
+#include <memory>
+
+#include "tools/cli/command.h"
+#include "tools/io/capture_reader.h"
+#include "tools/io/mesh_io.h"
+
+namespace glcast::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string file;
+    bool json = false;
+};
+
+Json vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json describe_part(const ViewImage& image) {
+    std::size_t covered = 0, with_normal = 0;
+    for (std::size_t p = 0; p < image.depth.size(); ++p) {
+        covered += image.covered(p);
+        with_normal += image.normal[p].w > 0;
+    }
+    const double pixels = double(image.n) * image.n;
+    return {{"name", part_name(image.view)},
+            {"coveredPixels", covered},
+            {"coverage", double(covered) / pixels},
+            {"pixelsWithNormal", with_normal}};
+}
+
+Json describe_capture(const Options& options, const Capture& capture) {
+    const CaptureInfo& info = capture.info;
+    Json matrix = Json::array();
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) matrix.push_back(info.eye_to_capture[c][r]);
+    Json json = {{"file", options.file},
+                 {"kind", "capture"},
+                 {"bytes", capture.file_bytes},
+                 {"n", info.n},
+                 {"box", {{"lo", vector_json(info.box.lo)}, {"size", info.box.size}}},
+                 {"sample", info.box.size / info.n},
+                 {"eyeToCapture", matrix},
+                 {"program", info.program},
+                 {"frame", info.frame},
+                 {"renderer", info.renderer},
+                 {"normals", info.normals},
+                 {"glcastVersion", info.glcast_version},
+                 {"notUnderstood", Json::object()}};
+    for (const auto& [what, count] : info.not_understood) json["notUnderstood"][what] = count;
+    for (const ViewImage& image : capture.images) json["parts"].push_back(describe_part(image));
+    return json;
+}
+
+Json describe_level(const Level& level) {
+    glm::dvec3 lo = level.mesh.positions.at(0), hi = lo;
+    for (const glm::dvec3& p : level.mesh.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
+    Json json = {{"name", level.name}};
+    json.update(to_json(check_mesh(level.mesh)));
+    json["bounds"] = {{"lo", vector_json(lo)}, {"hi", vector_json(hi)}};
+    json["hasNormals"] = !level.mesh.normals.empty();
+    json["hasColours"] = !level.mesh.colours.empty();
+    json["meanError"] = level.mean_error;
+    json["maxError"] = level.max_error;
+    if (level.sample > 0) json["sample"] = level.sample;
+    return json;
+}
+
+void print_capture(const Json& j) {
+    const auto& lo = j["box"]["lo"];
+    std::printf("capture   %s, %ld bytes, complete\n", j["file"].get<std::string>().c_str(),
+                j["bytes"].get<long>());
+    std::printf("program   %s, frame %ld, %s\n", j["program"].get<std::string>().c_str(),
+                j["frame"].get<long>(), j["renderer"].get<std::string>().c_str());
+    std::printf("lattice   n = %d, box from (%.6g, %.6g, %.6g), size %.6g, sample %.6g\n", j["n"].get<int>(),
+                lo[0].get<double>(), lo[1].get<double>(), lo[2].get<double>(), j["box"]["size"].get<double>(),
+                j["sample"].get<double>());
+    std::printf("normals   %s; made by glcast %s\n", j["normals"].get<std::string>().c_str(),
+                j["glcastVersion"].get<std::string>().c_str());
+    for (const Json& part : j["parts"])
+        std::printf("view %-5s %6.2f %% covered, %ld pixels, %ld of them with a normal\n",
+                    part["name"].get<std::string>().c_str(), part["coverage"].get<double>() * 100,
+                    part["coveredPixels"].get<long>(), part["pixelsWithNormal"].get<long>());
+    if (j["notUnderstood"].empty()) std::printf("understood everything that was called in the frame\n");
+    for (const auto& [what, count] : j["notUnderstood"].items())
+        std::printf("not understood: %s, %ld times\n", what.c_str(), count.get<long>());
+}
+
+void print_level(const Json& j, const Level& level) {
+    const auto &lo = j["bounds"]["lo"], &hi = j["bounds"]["hi"];
+    std::printf("%s\n", level.name.c_str());
+    std::printf("  %s\n", summary(check_mesh(level.mesh)).c_str());
+    std::printf("  %ld vertices%s%s, %ld component%s, Euler characteristic %ld\n", j["vertices"].get<long>(),
+                j["hasNormals"].get<bool>() ? ", normals" : "",
+                j["hasColours"].get<bool>() ? ", colours" : "", j["components"].get<long>(),
+                j["components"].get<long>() == 1 ? "" : "s", j["euler"].get<long>());
+    std::printf("  volume %.6g, area %.6g\n", j["volume"].get<double>(), j["area"].get<double>());
+    std::printf("  bounds (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)\n", lo[0].get<double>(),
+                lo[1].get<double>(), lo[2].get<double>(), hi[0].get<double>(), hi[1].get<double>(),
+                hi[2].get<double>());
+    if (level.max_error > 0)
+        std::printf("  error to level 0: mean %.6g, max %.6g\n", level.mean_error, level.max_error);
+}
+
+int info(const Options& options) {
+    if (looks_like_exr(options.file)) {
+        const Json json = describe_capture(options, read_capture(options.file));
+        options.json ? print_json(json) : print_capture(json);
+        return 0;
+    }
+    const std::vector<Level> levels = read_levels(options.file);
+    Json json = {
+        {"file", options.file}, {"kind", "mesh"}, {"bytes", std::filesystem::file_size(options.file)}};
+    for (const Level& level : levels) json["levels"].push_back(describe_level(level));
+    if (options.json) {
+        print_json(json);
+        return 0;
+    }
+    std::printf("mesh      %s, %ld bytes\n", options.file.c_str(), json["bytes"].get<long>());
+    for (std::size_t k = 0; k < levels.size(); ++k) print_level(json["levels"][k], levels[k]);
+    return 0;
+}
+
+} // namespace
+
+Run declare_info(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    app.add_option("file", options->file, "capture (.exr) or mesh (.glb, .obj, .ply, .off, .stl)")
+        ->required();
+    app.add_flag("--json", options->json, "print one JSON object on standard output");
+    return [options] { return info(*options); };
+}
+
+} // namespace glcast::cli

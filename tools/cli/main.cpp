@@ -1,0 +1,71 @@
+// glcast: what happens to a capture after it was made. One file a subcommand.
+#include <algorithm>
+#include <new>
+
+#include "tools/cli/command.h"
+
+namespace {
+
+using namespace glcast::cli;
+
+struct Command {
+    const char* name;
+    const char* synopsis;
+    Run (*declare)(CLI::App& app);
+};
+
+constexpr Command commands[] = {
+    {"mesh", "make a closed mesh with levels of detail out of a capture", declare_mesh},
+    {"info", "say what is in a capture or a mesh, checked", declare_info},
+    {"compare", "measure how far two meshes are apart", declare_compare},
+    {"render", "draw a mesh: six sides and two corners, a row per level", declare_render},
+};
+
+constexpr int failed = 1, usage = 2;
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+/// What a parse error means for the user; help and version are no errors.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    const auto chosen = app.get_subcommands();
+    say(one_line(error.what()) + " (see glcast " + (chosen.empty() ? "" : chosen[0]->get_name() + " ") +
+        "--help)");
+    return usage;
+}
+
+int run(const Run& command) {
+    try {
+        return command();
+    } catch (const std::bad_alloc&) {
+        say("out of memory; a smaller -n in glcast-run needs less");
+    } catch (const std::exception& error) {
+        say(one_line(error.what()));
+    }
+    return failed;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Closed, coloured meshes out of what an OpenGL program drew. Captures are made by glcast-run.",
+        "glcast"};
+    app.set_version_flag("--version", "glcast " GLCAST_VERSION);
+    app.require_subcommand(1);
+    Run chosen;
+    for (const Command& command : commands) {
+        CLI::App* sub = app.add_subcommand(command.name, command.synopsis);
+        sub->callback([&chosen, action = command.declare(*sub)] { chosen = action; });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return explain(app, error);
+    }
+    return run(chosen);
+}

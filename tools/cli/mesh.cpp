@@ -1,0 +1,279 @@
+// glcast mesh: capture -> surface -> levels -> file.
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <sys/resource.h>
+
+#include "tools/cli/command.h"
+#include "tools/deviation/deviation.h"
+#include "tools/io/capture_reader.h"
+#include "tools/io/mesh_io.h"
+#include "tools/reconstruct/reconstruct.h"
+#include "tools/simplify/simplify.h"
+
+namespace glcast::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Unit = SimplifyTarget::Unit;
+
+constexpr double default_ratios[] = {0.1, 0.01};
+constexpr double fewest_by_default = 500; // triangles: fewer and most things lose their shape
+
+struct Options {
+    std::string capture, output, method = "contour", normals = "drawn";
+    double close_gaps = 1;
+    std::vector<double> edges, triangles, ratio;
+    bool json = false;
+};
+
+struct Stopwatch {
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+};
+
+/// Everything there is to tell about a run.
+struct Made {
+    CaptureInfo info;
+    ReconstructReport report;
+    Mesh full;
+    MeshCheck full_check;
+    std::vector<Level> levels;
+    std::vector<MeshCheck> checks; ///< of levels
+    std::vector<std::filesystem::path> files;
+    double sample = 0;
+    double read_seconds = 0, surface_seconds = 0, simplify_seconds = 0, measure_seconds = 0,
+           write_seconds = 0;
+};
+
+bool is_glb(const Options& options) { return std::filesystem::path(options.output).extension() == ".glb"; }
+
+void check_output(const Options& options) {
+    static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
+    const std::string extension = std::filesystem::path(options.output).extension();
+    if (std::find(std::begin(writable), std::end(writable), extension) == std::end(writable))
+        throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
+    require_writable(options.output);
+}
+
+std::vector<SimplifyTarget> given_targets(const Options& options) {
+    std::vector<SimplifyTarget> targets;
+    for (double e : options.edges) targets.push_back({Unit::edges, e});
+    for (double t : options.triangles) targets.push_back({Unit::triangles, t});
+    for (double r : options.ratio) targets.push_back({Unit::ratio, r});
+    std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
+    return targets;
+}
+
+std::vector<SimplifyTarget> default_targets(std::size_t triangles) {
+    std::vector<SimplifyTarget> targets;
+    double last = double(triangles);
+    for (double ratio : default_ratios) {
+        const double wanted = std::max(double(triangles) * ratio, fewest_by_default);
+        if (wanted > last / 2) break; // hardly a level of its own
+        targets.push_back({Unit::triangles, std::floor(wanted)});
+        last = wanted;
+    }
+    return targets;
+}
+
+/// Does the full surface meet the target as it is?
+bool met(const SimplifyTarget& target, const MeshCheck& full) {
+    switch (target.unit) {
+    case Unit::edges:
+        return double(full.edges) <= target.value;
+    case Unit::triangles:
+        return double(full.triangles) <= target.value;
+    default:
+        return target.value >= 1;
+    }
+}
+
+void require_manifold(const MeshCheck& check, const std::string& what) {
+    if (!check.closed_manifold())
+        throw std::runtime_error(what + " is not closed: " + describe(check) + "; nothing was written");
+}
+
+void make_surface(const Options& options, Made& made) {
+    Capture capture;
+    {
+        const Progress progress("reading " + options.capture);
+        const Stopwatch watch;
+        capture = read_capture(options.capture);
+        made.read_seconds = watch.seconds();
+    }
+    const Progress progress("making the surface");
+    const Stopwatch watch;
+    made.info = capture.info;
+    made.sample = capture.info.box.size / capture.info.n;
+    std::erase_if(capture.images, [](const ViewImage& image) { return image.view.layer != 0; });
+    ReconstructOptions how;
+    how.method = options.method == "cubes" ? SurfaceMethod::cubes : SurfaceMethod::contour;
+    how.close_gaps = options.close_gaps;
+    how.geometric_normals = options.normals == "geometric";
+    made.full = reconstruct(capture.images, capture.info.box, how, &made.report);
+    made.full_check = check_mesh(made.full);
+    made.surface_seconds = watch.seconds();
+    require_manifold(made.full_check, "the surface");
+}
+
+/// Level 0 first in .glb; the other formats hold one mesh, so with targets they hold those alone.
+void make_levels(const Options& options, Made& made) {
+    const Progress progress("simplifying");
+    const Stopwatch watch;
+    std::vector<SimplifyTarget> targets = given_targets(options);
+    const bool asked = !targets.empty();
+    if (!asked && is_glb(options)) targets = default_targets(made.full.triangles.size());
+    if (is_glb(options))
+        std::erase_if(targets, [&](const auto& target) { return met(target, made.full_check); });
+    std::vector<std::future<Mesh>> meshes;
+    for (const SimplifyTarget& target : targets)
+        meshes.push_back(std::async(std::launch::async, [&made, target] {
+            return met(target, made.full_check) ? made.full : simplify(made.full, target);
+        }));
+    if (is_glb(options) || !asked) made.levels.push_back({made.full, "level 0", 0, 0, made.sample});
+    for (auto& mesh : meshes)
+        made.levels.push_back({mesh.get(), "level " + std::to_string(made.levels.size()), 0, 0, made.sample});
+    for (const Level& level : made.levels) {
+        made.checks.push_back(check_mesh(level.mesh));
+        require_manifold(made.checks.back(), level.name);
+    }
+    made.simplify_seconds = watch.seconds();
+}
+
+/// Against the full surface, both ways, the larger; hidden parts of the surface count as all others.
+void measure_levels(Made& made) {
+    const Progress progress("measuring");
+    const Stopwatch watch;
+    DeviationOptions how;
+    how.visible_only = false;
+    for (Level& level : made.levels) {
+        if (level.mesh.triangles.size() == made.full.triangles.size()) continue;
+        const Deviation d = deviation(made.full, level.mesh, how);
+        level.mean_error = std::max(d.a_to_b.mean, d.b_to_a.mean);
+        level.max_error = std::max(d.a_to_b.max, d.b_to_a.max);
+    }
+    made.measure_seconds = watch.seconds();
+}
+
+void write(const Options& options, Made& made) {
+    const Progress progress("writing " + options.output);
+    const Stopwatch watch;
+    made.files = write_levels(options.output, made.levels);
+    made.write_seconds = watch.seconds();
+}
+
+Json describe_level(const Made& made, std::size_t k) {
+    const Level& level = made.levels[k];
+    Json json = to_json(made.checks[k]);
+    json["name"] = level.name;
+    json["file"] = made.files[std::min(k, made.files.size() - 1)].string();
+    json["meanError"] = level.mean_error;
+    json["maxError"] = level.max_error;
+    json["meanErrorSamples"] = level.mean_error / made.sample;
+    json["maxErrorSamples"] = level.max_error / made.sample;
+    return json;
+}
+
+void print_made(const Options& options, const Made& made) {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const ReconstructReport& r = made.report;
+    Json json = {{"capture", options.capture},
+                 {"n", made.info.n},
+                 {"sample", made.sample},
+                 {"method", options.method}};
+    for (const auto& file : made.files)
+        json["files"].push_back({{"path", file.string()}, {"bytes", std::filesystem::file_size(file)}});
+    for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(made, k));
+    json["surface"] = {{"filledSamples", r.filled_samples},
+                       {"thinSamples", r.thin_samples},
+                       {"crossings", r.crossings},
+                       {"unsupportedCrossings", r.unsupported_crossings},
+                       {"verticesWithoutPixel", r.vertices_without_pixel}};
+    json["seconds"] = {{"read", made.read_seconds},       {"carve", r.carve_seconds},
+                       {"contour", r.surface_seconds},    {"attributes", r.attribute_seconds},
+                       {"surface", made.surface_seconds}, {"simplify", made.simplify_seconds},
+                       {"measure", made.measure_seconds}, {"write", made.write_seconds}};
+    json["peakBytes"] = usage.ru_maxrss * 1024L;
+    print_json(json);
+}
+
+void say_made(const Options& options, const Made& made) {
+    const ReconstructReport& r = made.report;
+    const double unseen = r.crossings ? 100.0 * double(r.unsupported_crossings) / double(r.crossings) : 0;
+    say(options.capture + ": n = " + std::to_string(made.info.n) + ", sample " + number(made.sample) + ", " +
+        number(unseen) + " % of the surface seen by no ray");
+    for (std::size_t k = 0; k < made.levels.size(); ++k) {
+        const Level& level = made.levels[k];
+        std::string line = level.name + ": " + summary(made.checks[k]);
+        if (level.max_error > 0)
+            line += ", error mean " + number(level.mean_error) + " (" +
+                    number(level.mean_error / made.sample) + " samples), max " + number(level.max_error) +
+                    " (" + number(level.max_error / made.sample) + ")";
+        say(line);
+    }
+    for (const auto& file : made.files)
+        say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
+}
+
+int make_mesh(const Options& options) {
+    check_output(options);
+    Made made;
+    make_surface(options, made);
+    make_levels(options, made);
+    measure_levels(made);
+    write(options, made);
+    if (options.json)
+        print_made(options, made);
+    else
+        say_made(options, made);
+    return 0;
+}
+
+} // namespace
+
+Run declare_mesh(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    app.footer(
+        "Levels. A .glb holds the full surface as level 0, which is what viewers show, and the levels asked "
+        "for behind\n"
+        "it (MSFT_lod); by default those have 1/10 and 1/100 of the triangles, at least 500. The other "
+        "formats hold one\n"
+        "mesh: the full surface, or with targets one file per target: OUT.ply for the finest, OUT.lod1.ply, "
+        "...\n"
+        "Every level is a closed two-manifold and is measured against the full surface, or nothing is "
+        "written.\n"
+        "Positions are in the captured model's own units and axes. .off keeps colours but no normals.");
+    app.add_option("capture", options->capture, "capture made by glcast-run (.exr)")->required();
+    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply or .off")->required();
+    app.add_option("--method", options->method,
+                   "contour: smooth, sharp edges kept; cubes: a square per exposed face")
+        ->check(CLI::IsMember({"contour", "cubes"}))
+        ->capture_default_str();
+    app.add_option("--close-gaps", options->close_gaps,
+                   "close slits up to this radius, in samples; 0 keeps every gap")
+        ->check(CLI::Range(0.0, 64.0))
+        ->capture_default_str();
+    auto* edges = app.add_option("--edges", options->edges, "levels with at most so many edges: 5000,782")
+                      ->delimiter(',');
+    auto* triangles =
+        app.add_option("--triangles", options->triangles, "levels with at most so many triangles")
+            ->delimiter(',');
+    auto* ratio =
+        app.add_option("--ratio", options->ratio, "levels with such a share of the triangles: 0.1,0.01")
+            ->delimiter(',');
+    edges->check(CLI::Range(6.0, 1e10))->excludes(triangles)->excludes(ratio);
+    triangles->check(CLI::Range(4.0, 1e10))->excludes(ratio);
+    ratio->check(CLI::Range(1e-9, 1.0));
+    app.add_option("--normals", options->normals, "drawn: as the program lit it; geometric: of the surface")
+        ->check(CLI::IsMember({"drawn", "geometric"}))
+        ->capture_default_str();
+    app.add_flag("--json", options->json, "print one JSON object on standard output");
+    return [options] { return make_mesh(*options); };
+}
+
+} // namespace glcast::cli
