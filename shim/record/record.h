@@ -1,5 +1,5 @@
-// Recorder and replayer of fixed-function GL. Knows nothing of preloading, GLX or EGL: it sits between anything that calls
-// a GlTable and the real one, so it is tested through OSMesa.
+// Recorder and replayer of fixed-function GL. Knows nothing of preloading, GLX or EGL: it sits between
+// anything that calls a GlTable and the real one, so it is tested through OSMesa.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace glcast::record {
 
 /// What contexts share: display lists and buffer shadows.
 struct ShareGroup;
-/// The shadow of one GL context: what cannot be read back later (client arrays, Begin/End and list mode, map ranges).
+/// The shadow of one GL context: what cannot be read back later (client arrays, Begin/End and list mode, map
+/// ranges).
 struct Context;
 
 /// A new context's shadow. `real` must outlive it. `shared_with` may be null.
@@ -22,23 +23,27 @@ std::shared_ptr<Context> make_context(const GlTable& real, const std::shared_ptr
 /// Make it this thread's; null for none. While none is set, table() passes straight through to `fallback`.
 void set_current(Context* context, const GlTable& fallback);
 
-/// Entry points that record, and call the real ones of this thread's context exactly once with the same arguments.
-/// Everything that a program can see (errors, results, state) is the real one's.
+/// Entry points that record, and call the real ones of this thread's context exactly once with the same
+/// arguments. Everything that a program can see (errors, results, state) is the real one's.
 const GlTable& table();
 
-/// More than 0 while any context records a frame or compiles a list: then the stubs of all calls must go through table().
-/// At 0 only the calls of `always_shadowed(call)` must. This is the one branch of the idle cost.
+/// More than 0 while any context records a frame or compiles a list: then the stubs of all calls must go
+/// through table(). At 0 only the calls of `always_shadowed(call)` must. This is the one branch of the idle
+/// cost.
 extern std::atomic<std::uint32_t> active;
 bool always_shadowed(GlCall call);
 
-/// Why a frame cannot be recorded from here: null when it can, else "inside glBegin", "a display list is open", ...
+/// Why a frame cannot be recorded from here: null when it can, else "inside glBegin", "a display list is
+/// open", ...
 const char* busy(const Context& context);
 
-/// A recorded frame: a prologue that sets the whole state which the frame started from, the calls of the frame with the
-/// client memory they read, and the display lists as they stood (late-bound names, redefinitions in the frame included).
+/// A recorded frame: a prologue that sets the whole state which the frame started from, the calls of the
+/// frame with the client memory they read, and the display lists as they stood (late-bound names,
+/// redefinitions in the frame included).
 struct Frame;
 
-/// The context must be current on this thread and not busy. Queries the state (never leaving an error or a change).
+/// The context must be current on this thread and not busy. Queries the state (never leaving an error or a
+/// change).
 void begin_frame(Context& context);
 /// Ends the recording. Null when it had to be given up (out of memory), with the reason in `why`.
 std::shared_ptr<const Frame> end_frame(Context& context, std::string* why = nullptr);
@@ -47,9 +52,14 @@ std::shared_ptr<const Frame> end_frame(Context& context, std::string* why = null
 const std::map<std::string, long>& not_understood(const Frame& frame);
 std::size_t frame_bytes(const Frame& frame);
 
-/// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's. Calls that only
-/// have side effects on shared objects (uploads, deletes) and reads are not played. Matrix and attribute stacks of the
-/// context are emptied first, so it can be called again and again. `gl` may be an override table.
+/// Lists `first`, `first` + 1, ... were given contents by other means than GL calls (glXUseXFont): they are
+/// skipped and counted.
+void note_opaque_lists(Context& context, GLuint first, GLsizei count);
+
+/// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
+/// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
+/// and attribute stacks of the context are emptied first, so it can be called again and again. `gl` may be an
+/// override table.
 void replay(const Frame& frame, const GlTable& gl);
 
 } // namespace glcast::record

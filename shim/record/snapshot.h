@@ -1,0 +1,36 @@
+// The state of a context, asked for and written as ordinary calls.
+#pragma once
+#include "shim/record/context.h"
+
+namespace glcast::record {
+
+/// Writes all server state but the matrix stacks into `stream`. Asks only what the context knows, so that no
+/// GL error comes of it, and leaves everything as it was. `at_start`: the modelview may be overwritten, since
+/// the stacks are loaded after.
+void write_state(Context& context, Stream& stream, bool at_start);
+
+/// The parts of write_state that have files of their own.
+void write_lights(Context& context, Stream& stream);
+void write_textures(Context& context, Stream& stream);
+void write_default_textures(Context& context, Stream& stream);
+void write_evaluators(Context& context, Stream& stream);
+
+/// The tops of all matrix stacks, with depths and current modes.
+void read_matrices(Context& context, Recording& recording);
+
+/// glPixelStore for packing at its defaults, with no pack buffer, for as long as it lives.
+class DefaultPacking {
+  public:
+    explicit DefaultPacking(Context& context);
+    ~DefaultPacking();
+    DefaultPacking(const DefaultPacking&) = delete;
+    DefaultPacking& operator=(const DefaultPacking&) = delete;
+
+  private:
+    static constexpr int count = 8;
+    Context& context;
+    GLint before[count];
+    GLuint buffer = 0;
+};
+
+} // namespace glcast::record

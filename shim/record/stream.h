@@ -1,0 +1,134 @@
+// A stream of packets: the calls of a frame or of a display list, packed as tightly as they can be read back.
+//
+//   packet := header body        header := op:16 words:16  |  op:16 0xFFFF words:32
+//   body   := the arguments in order, unaligned, without the pointer; then what the pointer pointed at,
+//   aligned for its type
+//
+// `words` is the length of the body in units of four bytes. A glVertex3f takes 16 bytes.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+namespace glcast::record {
+
+using Op = std::uint16_t;
+
+struct Packet {
+    Op op;
+    const std::byte* body;
+    std::size_t bytes; ///< of the body, padding included
+};
+
+class Stream {
+  public:
+    Stream() = default;
+    Stream(Stream&&) = default;
+    Stream& operator=(Stream&&) = default;
+
+    /// Room for a packet's body of `bytes`, aligned to 4. Throws std::bad_alloc, and is then as it was.
+    std::byte* append(Op op, std::size_t bytes);
+
+    /// Gives back what the last chunk holds too much: display lists are many and small.
+    void shrink();
+    std::size_t allocated_bytes() const;
+    bool empty() const { return chunks.empty(); }
+
+    template <class Visitor> void for_each(Visitor&& visit) const {
+        for (const Chunk& chunk : chunks) {
+            const std::byte* at = chunk.data.get();
+            const std::byte* const end = at + chunk.used;
+            while (at != end) {
+                const Packet packet = read_header(at);
+                visit(packet);
+                at = packet.body + packet.bytes;
+            }
+        }
+    }
+
+    /// How a list leaves Begin/End: glBegin in one list and glEnd in another is legal.
+    enum class BeginState : std::uint8_t { unchanged, inside, outside };
+    BeginState begin_state = BeginState::unchanged;
+    bool opaque = false; ///< GL has this list and we do not know its contents (glXUseXFont, out of memory)
+
+  private:
+    struct Free {
+        void operator()(std::byte* data) const { std::free(data); }
+    };
+    struct Chunk {
+        std::unique_ptr<std::byte[], Free> data;
+        std::size_t used = 0, capacity = 0;
+    };
+    static Packet read_header(const std::byte* at) {
+        std::uint32_t header;
+        std::memcpy(&header, at, 4);
+        std::uint32_t words = header >> 16;
+        if (words != long_packet) return {Op(header), at + 4, words * std::size_t(4)};
+        std::memcpy(&words, at + 4, 4);
+        return {Op(header), at + 8, words * std::size_t(4)};
+    }
+    void add_chunk(std::size_t at_least);
+
+    static constexpr std::uint32_t long_packet = 0xFFFF;
+    static constexpr std::size_t first_chunk = 256, largest_chunk = std::size_t(1) << 20;
+    std::vector<Chunk> chunks;
+};
+
+/// Appends values one behind the other into a body; `Reader` takes them out again.
+class Writer {
+  public:
+    explicit Writer(std::byte* body) : at(body) {}
+    template <class T> Writer& put(const T& value) {
+        std::memcpy(at, &value, sizeof value);
+        at += sizeof value;
+        return *this;
+    }
+    Writer& put_bytes(const void* from, std::size_t bytes) {
+        if (bytes) std::memcpy(at, from, bytes);
+        at += bytes;
+        return *this;
+    }
+    Writer& align(std::size_t alignment) {
+        at += padding(at, alignment);
+        return *this;
+    }
+    std::byte* position() const { return at; }
+
+    static std::size_t padding(const void* at, std::size_t alignment) {
+        return (alignment - reinterpret_cast<std::uintptr_t>(at) % alignment) % alignment;
+    }
+
+  private:
+    std::byte* at;
+};
+
+class Reader {
+  public:
+    explicit Reader(const Packet& packet) : at(packet.body), end(packet.body + packet.bytes) {}
+    template <class T> T get() {
+        T value;
+        std::memcpy(&value, at, sizeof value);
+        at += sizeof value;
+        return value;
+    }
+    Reader& align(std::size_t alignment) {
+        at += Writer::padding(at, alignment);
+        return *this;
+    }
+    const std::byte* position() const { return at; }
+    const std::byte* take(std::size_t bytes) {
+        const std::byte* from = at;
+        at += bytes;
+        return from;
+    }
+    bool at_end() const { return at >= end; }
+
+  private:
+    const std::byte* at;
+    const std::byte* end;
+};
+
+} // namespace glcast::record
