@@ -2,10 +2,9 @@
 
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <sstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/real/command.h"
-#include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
 
 namespace glcast::test {
@@ -52,7 +51,7 @@ Cast cast_program(const RealProgram& program) {
     for (const fs::path& file : {capture, mesh, plain, picture}) {
         fs::remove(file);
     }
-    Cast cast;
+    Cast cast{.name = program.name};
     auto environment = program.environment;
     environment.emplace_back("PATH", std::string("/usr/bin:") + std::getenv("PATH"));
     if (!step(capture_command(program, capture), capture_limit_seconds, cast.error, nullptr, environment) ||
@@ -65,14 +64,23 @@ Cast cast_program(const RealProgram& program) {
     cast.manifold = step({MESH_ORACLE, plain}, tool_limit_seconds, complaints, &cast.oracle);
     cast.oracle += complaints;
     cast.mesh = read_mesh(mesh);
-    const Capture header = read_capture(capture);
-    cast.sample = header.info.box.size / header.info.n;
     return cast;
 }
 
 Accuracy accuracy(const Cast& cast, const Mesh& truth) {
-    const Deviation distances = deviation(cast.mesh, truth);
-    return {distances.a_to_b.mean / cast.sample, distances.b_to_a.mean / cast.sample};
+    const fs::path original = fs::path(REAL_OUTPUT) / (cast.name + "-truth.off");
+    Level level;
+    level.mesh = truth;
+    write_levels(original, {&level, 1});
+    Accuracy measured;
+    std::string json;
+    if (step({GLCAST, "compare", "--json", original, fs::path(REAL_OUTPUT) / (cast.name + ".glb")},
+             tool_limit_seconds, measured.error, &json)) {
+        const auto distances = nlohmann::json::parse(json);
+        measured.from_truth = distances.at("aToB").at("samples").at("mean");
+        measured.to_truth = distances.at("bToA").at("samples").at("mean");
+    }
+    return measured;
 }
 
 double area_share(const Mesh& mesh, const glm::vec3& colour) {

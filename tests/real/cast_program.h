@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/deviation/deviation.h"
 #include "tools/mesh/mesh.h"
 
 namespace glcast::test {
@@ -23,14 +22,15 @@ struct Cast {
     std::string oracle;    ///< what the independent check says of the mesh
     bool manifold = false; ///< by the independent check
     Mesh mesh;             ///< level 0
-    double sample = 0;     ///< model units
 };
 
 /// Files go to the folder `real` of the build tree and stay there: NAME.exr, NAME.glb, NAME.png to look at.
 Cast cast_program(const RealProgram& program);
 
-/// Distances from `cast` to the truth in `file` and back, in samples, in the model's own coordinates.
+/// Mean distances by `glcast compare`, in samples, in the coordinates of both as they are. Points that nobody
+/// can see are left out.
 struct Accuracy {
+    std::string error;
     double to_truth = 0, from_truth = 0;
 };
 Accuracy accuracy(const Cast& cast, const Mesh& truth);

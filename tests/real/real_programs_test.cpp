@@ -39,6 +39,7 @@ void expect_close(const Cast& cast, const Mesh& truth) {
     const Accuracy is = accuracy(cast, truth);
     std::cout << "mean distance, samples: cast to truth " << is.to_truth << ", truth to cast "
               << is.from_truth << '\n';
+    EXPECT_EQ(is.error, "");
     EXPECT_LE(is.to_truth, mean_limit_samples);
     EXPECT_LE(is.from_truth, mean_limit_samples);
 }
