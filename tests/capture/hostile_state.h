@@ -9,6 +9,7 @@ namespace glcast::test {
 struct HostileCall {
     const char* name;
     void (*call)(const GlTable& gl);
+    bool harmless_here = false; ///< with float targets of one sample, and one small scene, in OSMesa
 };
 const std::vector<HostileCall>& hostile_calls();
 

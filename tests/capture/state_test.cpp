@@ -62,6 +62,21 @@ TEST_F(ForcedState, EachHostileCallLeavesTheImagesAsTheyAre) {
     }
 }
 
+/// The test above is worth something only if the calls do harm when they come through.
+TEST_F(ForcedState, HostileCallsThatComeThroughSpoilThem) {
+    const Cast plain = cast_of(scene);
+    for (const HostileCall& hostile : hostile_calls()) {
+        if (hostile.harmless_here) continue;
+        SCOPED_TRACE(hostile.name);
+        const auto draw = [&](const GlTable& table) {
+            hostile.call(gl);
+            scene(table);
+        };
+        const Difference d = difference(plain, cast_of(draw));
+        EXPECT_GT(double(d.coverage) + d.depth + d.colour + d.normal, 0);
+    }
+}
+
 TEST_F(ForcedState, AllHostileCallsTogetherAndInTheMiddle) {
     const Cast plain = cast_of(scene);
     const auto all = [](const GlTable& table) {
