@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <set>
+#include <random>
 #include <stdexcept>
-#include <tuple>
 
 #include "tests/mesh/bodies.h"
 #include "tests/mesh/independent_check/oracle.h"
@@ -54,6 +54,33 @@ TEST(Simplify, KeepsEveryBodyAClosedManifoldDownToNothing) {
             EXPECT_EQ(check.components, body.components) << what;
             EXPECT_GE(level.triangles.size(), 4 * body.components) << what;
         }
+}
+
+/// Nodes at the even cells of a grid, random bars between them: many handles and parts, and a manifold
+/// always, as no two cells touch in an edge or a corner alone.
+Mesh scaffold(std::mt19937& random, unsigned bars_of_eight) {
+    constexpr int n = 7;
+    std::vector<bool> cells(n * n * n);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::size_t odd = i % n % 2 + i / n % n % 2 + i / n / n % 2;
+        cells[i] = odd == 0 || (odd == 1 && random() % 8 < bars_of_eight);
+    }
+    return blocks(n, n, n, [&](int x, int y, int z) { return cells[std::size_t(x + n * (y + n * z))]; });
+}
+
+TEST(Simplify, KeepsRandomBodiesManifold) {
+    std::mt19937 random(1);
+    for (unsigned attempt = 0; attempt < 30; ++attempt) {
+        const Mesh body = scaffold(random, 1 + attempt % 7);
+        const MeshCheck before = check_mesh(body);
+        ASSERT_TRUE(before.closed_manifold());
+        for (const double ratio : {0.5, 0.0}) {
+            const Mesh level = simplify(body, {Unit::ratio, ratio});
+            expect_good(level, "body " + std::to_string(attempt));
+            EXPECT_EQ(check_mesh(level).euler, before.euler) << attempt;
+            EXPECT_EQ(check_mesh(level).components, before.components) << attempt;
+        }
+    }
 }
 
 TEST(Simplify, ReachesTheLeastThatTheTopologyAllows) {
