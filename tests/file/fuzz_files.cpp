@@ -6,8 +6,10 @@
 #include <sys/resource.h>
 
 #include "tests/file/file_tools.h"
+#include "tests/file/sample_meshes.h"
 #include "tests/file/sphere_capture.h"
 #include "tools/io/capture_reader.h"
+#include "tools/io/mesh_io.h"
 
 using namespace glcast;
 using namespace glcast::samples;
@@ -70,3 +72,19 @@ TEST(Fuzz, FlippedBytesInACapture) {
         refusals(folder, whole, "damaged.exr", 800, [](const auto& path) { read_capture(path); });
     EXPECT_GT(refused, 400) << "most damage shows";
 }
+
+class FuzzMesh : public testing::TestWithParam<const char*> {};
+
+TEST_P(FuzzMesh, FlippedBytes) {
+    const Folder folder;
+    const std::string extension = GetParam();
+    const std::vector levels{Level{torus(12, 9), "level 0"}, Level{torus(6, 5), "level 1"}};
+    write_levels(folder / ("whole" + extension), levels);
+    const std::string whole = read_text(folder / ("whole" + extension));
+    const MemoryLimit limit;
+    refusals(folder, whole, ("damaged" + extension).c_str(), 600,
+             [](const auto& path) { read_levels(path); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, FuzzMesh, testing::Values(".glb", ".obj", ".ply", ".off"),
+                         [](const auto& info) { return std::string(info.param + 1); });

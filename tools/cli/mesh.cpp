@@ -39,14 +39,15 @@ struct Stopwatch {
 struct Made {
     CaptureInfo info;
     ReconstructReport report;
-    Mesh full;
-    MeshCheck full_check;
-    std::vector<Level> levels;
+    std::vector<Level> levels;     ///< [0]: the full surface, until write() leaves it out
     std::vector<MeshCheck> checks; ///< of levels
+    bool keep_full = true;         ///< .glb holds it always, the others when no target was given
     std::vector<std::filesystem::path> files;
     double sample = 0;
     double read_seconds = 0, surface_seconds = 0, simplify_seconds = 0, measure_seconds = 0,
            write_seconds = 0;
+
+    const Mesh& full() const { return levels[0].mesh; }
 };
 
 bool is_glb(const Options& options) { return std::filesystem::path(options.output).extension() == ".glb"; }
@@ -114,32 +115,34 @@ void make_surface(const Options& options, Made& made) {
     how.method = options.method == "cubes" ? SurfaceMethod::cubes : SurfaceMethod::contour;
     how.close_gaps = options.close_gaps;
     how.geometric_normals = options.normals == "geometric";
-    made.full = reconstruct(capture.images, capture.info.box, how, &made.report);
-    made.full_check = check_mesh(made.full);
+    made.levels.push_back(
+        {reconstruct(capture.images, capture.info.box, how, &made.report), "level 0", 0, 0, made.sample});
+    made.checks.push_back(check_mesh(made.full()));
     made.surface_seconds = watch.seconds();
-    require_manifold(made.full_check, "the surface");
+    require_manifold(made.checks[0], "the surface");
 }
 
-/// Level 0 first in .glb; the other formats hold one mesh, so with targets they hold those alone.
+/// The full surface first, then the targets, finest first.
 void make_levels(const Options& options, Made& made) {
     const Progress progress("simplifying");
     const Stopwatch watch;
     std::vector<SimplifyTarget> targets = given_targets(options);
-    const bool asked = !targets.empty();
-    if (!asked && is_glb(options)) targets = default_targets(made.full.triangles.size());
-    if (is_glb(options))
-        std::erase_if(targets, [&](const auto& target) { return met(target, made.full_check); });
+    made.keep_full = is_glb(options) || targets.empty();
+    if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
+    const MeshCheck& full_check = made.checks[0];
+    if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
     std::vector<std::future<Mesh>> meshes;
     for (const SimplifyTarget& target : targets)
-        meshes.push_back(std::async(std::launch::async, [&made, target] {
-            return met(target, made.full_check) ? made.full : simplify(made.full, target);
+        meshes.push_back(std::async(std::launch::async, [&full = made.full(), &full_check, target] {
+            return met(target, full_check) ? full : simplify(full, target);
         }));
-    if (is_glb(options) || !asked) made.levels.push_back({made.full, "level 0", 0, 0, made.sample});
-    for (auto& mesh : meshes)
-        made.levels.push_back({mesh.get(), "level " + std::to_string(made.levels.size()), 0, 0, made.sample});
-    for (const Level& level : made.levels) {
-        made.checks.push_back(check_mesh(level.mesh));
-        require_manifold(made.checks.back(), level.name);
+    std::vector<Mesh> simplified; // all are awaited before the full surface may move
+    for (auto& mesh : meshes) simplified.push_back(mesh.get());
+    for (Mesh& mesh : simplified) {
+        const std::string name = "level " + std::to_string(made.levels.size());
+        made.checks.push_back(check_mesh(mesh));
+        require_manifold(made.checks.back(), name);
+        made.levels.push_back({std::move(mesh), name, 0, 0, made.sample});
     }
     made.simplify_seconds = watch.seconds();
 }
@@ -150,9 +153,9 @@ void measure_levels(Made& made) {
     const Stopwatch watch;
     DeviationOptions how;
     how.visible_only = false;
-    for (Level& level : made.levels) {
-        if (level.mesh.triangles.size() == made.full.triangles.size()) continue;
-        const Deviation d = deviation(made.full, level.mesh, how);
+    for (std::size_t k = 1; k < made.levels.size(); ++k) {
+        Level& level = made.levels[k];
+        const Deviation d = deviation(made.full(), level.mesh, how);
         level.mean_error = std::max(d.a_to_b.mean, d.b_to_a.mean);
         level.max_error = std::max(d.a_to_b.max, d.b_to_a.max);
     }
@@ -162,6 +165,7 @@ void measure_levels(Made& made) {
 void write(const Options& options, Made& made) {
     const Progress progress("writing " + options.output);
     const Stopwatch watch;
+    if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
     made.files = write_levels(options.output, made.levels);
     made.write_seconds = watch.seconds();
 }

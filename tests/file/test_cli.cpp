@@ -1,0 +1,134 @@
+// The glcast command, run as a user runs it: exit codes, what goes where, and what is left behind.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/file/file_tools.h"
+#include "tests/file/sphere_capture.h"
+#include "tools/io/mesh_io.h"
+#include "tools/mesh/check.h"
+
+using namespace glcast;
+using namespace glcast::samples;
+using Json = nlohmann::json;
+
+namespace {
+
+Ran glcast_run(const std::string& arguments) { return run(GLCAST_COMMAND " " + arguments); }
+
+/// Standard output alone, as JSON.
+Json json_of(const std::string& arguments) {
+    const Ran ran = glcast_run(arguments + " --json 2>/dev/null");
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    return Json::parse(ran.output);
+}
+
+void expect_one_line(const Ran& ran, int status, const std::string& part) {
+    EXPECT_EQ(ran.status, status) << ran.output;
+    EXPECT_TRUE(ran.output.starts_with("glcast: ")) << ran.output;
+    EXPECT_EQ(std::count(ran.output.begin(), ran.output.end(), '\n'), 1) << ran.output;
+    EXPECT_NE(ran.output.find(part), std::string::npos) << ran.output;
+}
+
+class Command : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_EQ(write_sphere(file("s.exr"), 48), ""); }
+    std::string file(const std::string& name) const { return (folder / name).string(); }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(Command, MeshInfoCompareRender) {
+    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb"));
+    EXPECT_EQ(made["n"], 48);
+    EXPECT_GE(made["levels"].size(), 2u);
+    for (const Json& level : made["levels"]) {
+        EXPECT_TRUE(level["closedManifold"]);
+        EXPECT_EQ(level["euler"], 2);
+        EXPECT_EQ(level["boundaryEdges"], 0);
+    }
+    EXPECT_EQ(made["files"][0]["bytes"], std::filesystem::file_size(file("s.glb")));
+    EXPECT_LT(made["levels"][1]["triangles"], made["levels"][0]["triangles"]);
+    EXPECT_GT(made["levels"][1]["maxError"], 0);
+
+    const Json mesh = json_of("info " + file("s.glb"));
+    EXPECT_EQ(mesh["kind"], "mesh");
+    const double volume = 4.0 / 3 * M_PI * 1.2 * 1.2 * 1.2; // radius 0.4 of a box of 3
+    EXPECT_NEAR(mesh["levels"][0]["volume"].get<double>(), volume, volume * 0.01);
+
+    ASSERT_EQ(glcast_run("mesh " + file("s.exr") + " -o " + file("s.ply")).status, 0);
+    const Json same = json_of("compare " + file("s.glb") + " " + file("s.ply"));
+    EXPECT_LT(same["aToB"]["samples"]["max"], 1e-3);
+    EXPECT_TRUE(same["b"]["closedManifold"]);
+    EXPECT_NEAR(same["sample"].get<double>(), 3.0 / 48, 1e-12) << "the .glb tells";
+
+    const Ran drawn = glcast_run("render " + file("s.glb") + " -o " + file("s.png") + " --size 64");
+    EXPECT_EQ(drawn.status, 0) << drawn.output;
+    EXPECT_TRUE(read_text(file("s.png")).starts_with("\x89PNG"));
+}
+
+TEST_F(Command, ValidatorFindsNothingInACast) {
+    ASSERT_EQ(glcast_run("mesh " + file("s.exr") + " -o " + file("s.glb")).status, 0);
+    ASSERT_EQ(glcast_run("mesh " + file("s.exr") + " -o " + file("c.glb") + " --method cubes").status, 0);
+    const Ran ran = run("node " GLCAST_VALIDATE " " + file("s.glb") + " " + file("c.glb"));
+    if (ran.status == 2) GTEST_SKIP() << "no gltf-validator here (tests/run installs it): " << ran.output;
+    EXPECT_EQ(ran.status, 0) << ran.output;
+}
+
+TEST_F(Command, InfoOfACapture) {
+    const Json info = json_of("info " + file("s.exr"));
+    EXPECT_EQ(info["kind"], "capture");
+    EXPECT_EQ(info["n"], 48);
+    EXPECT_EQ(info["program"], "sphere");
+    EXPECT_EQ(info["notUnderstood"]["glFancy"], 3);
+    ASSERT_EQ(info["parts"].size(), 6u);
+    EXPECT_NEAR(info["parts"][0]["coverage"].get<double>(), M_PI * 0.4 * 0.4, 0.01);
+    EXPECT_NE(glcast_run("info " + file("s.exr")).output.find("+z.0"), std::string::npos);
+}
+
+TEST_F(Command, TargetsAreKept) {
+    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb") + " --edges 1500,300");
+    ASSERT_EQ(made["levels"].size(), 3u) << "the full surface and two targets";
+    EXPECT_LE(made["levels"][1]["edges"], 1500);
+    EXPECT_LE(made["levels"][2]["edges"], 300);
+    const Json alone = json_of("mesh " + file("s.exr") + " -o " + file("s.obj") + " --edges 300,1500");
+    ASSERT_EQ(alone["levels"].size(), 2u) << "one file per target, finest first";
+    EXPECT_LE(check_mesh(read_mesh(file("s.obj"))).edges, 1500u);
+    EXPECT_LE(check_mesh(read_mesh(file("s.lod1.obj"))).edges, 300u);
+}
+
+TEST_F(Command, CubesMethod) {
+    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.off") + " --method cubes");
+    ASSERT_EQ(made["levels"].size(), 1u);
+    EXPECT_TRUE(made["levels"][0]["closedManifold"]);
+}
+
+TEST_F(Command, RefusalsAreOneLineAndLeaveNothing) {
+    write_text(file("cut.exr"), read_text(file("s.exr")).substr(0, 5000));
+    write_text(file("bad.ply"), "nonsense");
+    std::filesystem::create_directory(file("folder.glb"));
+    const std::vector<std::string> before = folder.names();
+    expect_one_line(glcast_run("mesh " + file("cut.exr") + " -o " + file("o.glb")), 1, "cut.exr");
+    expect_one_line(glcast_run("mesh " + file("none.exr") + " -o " + file("o.glb")), 1, "No such file");
+    expect_one_line(glcast_run("mesh " + file("bad.ply") + " -o " + file("o.glb")), 1, "no OpenEXR");
+    expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("o.stl")), 1, "name it");
+    expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("no/o.glb")), 1, "No such file");
+    expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("folder.glb")), 1, "directory");
+    expect_one_line(glcast_run("info " + file("bad.ply")), 1, "bad.ply");
+    expect_one_line(glcast_run("compare " + file("bad.ply") + " " + file("bad.ply")), 1, "bad.ply");
+    expect_one_line(glcast_run("render " + file("bad.ply") + " -o " + file("o.png")), 1, "bad.ply");
+    expect_one_line(glcast_run("render " + file("bad.ply") + " -o " + file("o.jpg")), 1, ".png");
+    EXPECT_EQ(folder.names(), before);
+}
+
+TEST_F(Command, Usage) {
+    for (const char* arguments :
+         {"", "frobnicate", "mesh", "mesh a.exr", "mesh a.exr -o b.glb --method spheres",
+          "mesh a.exr -o b.glb --edges 1000 --ratio 0.5", "mesh a.exr -o b.glb --close-gaps -1",
+          "compare one.ply", "render a.glb -o b.png --size 5"})
+        expect_one_line(glcast_run(arguments), 2, "--help");
+    EXPECT_EQ(glcast_run("--help").status, 0);
+    EXPECT_EQ(glcast_run("mesh --help").status, 0);
+    EXPECT_EQ(glcast_run("--version").output, "glcast " GLCAST_VERSION "\n");
+}
