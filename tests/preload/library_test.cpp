@@ -1,0 +1,84 @@
+// libglcast.so as a file: what it needs, what it exports, and the tail calls that interposition depends on.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "capture/gl/gl_table.h"
+#include "tests/support/xvfb.h"
+
+namespace glcast::test {
+namespace {
+
+std::string output_of(const std::vector<std::string>& arguments) {
+    const Outcome outcome = run({arguments, {}, 60});
+    EXPECT_EQ(outcome.exit_code, 0) << arguments[0] << ": " << outcome.err;
+    return outcome.out;
+}
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+    const std::regex expression(pattern);
+    std::set<std::string> found;
+    for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i)
+        found.insert((*i)[1]);
+    return found;
+}
+
+/// Instructions of one exported function.
+std::string disassembly(const std::string& function) {
+    return output_of({"objdump", "-d", "--no-show-raw-insn", "--disassemble=" + function, GLCAST_SHIM});
+}
+
+TEST(Library, needs_only_the_c_library) {
+    if (*GLCAST_SANITIZER_RUNTIME) GTEST_SKIP() << "a sanitizer brings libraries of its own";
+    const auto needed = matches(output_of({"readelf", "-dW", GLCAST_SHIM}), R"(\(NEEDED\).*\[(.*)\])");
+    const std::set<std::string> allowed = {"libc.so.6", "libm.so.6", "libdl.so.2", "ld-linux-x86-64.so.2",
+                                           "ld-linux-aarch64.so.1"};
+    EXPECT_FALSE(needed.empty());
+    for (const std::string& library : needed) EXPECT_TRUE(allowed.contains(library)) << library;
+}
+
+TEST(Library, exports_gl_and_its_loaders_only) {
+    const std::string symbols = output_of({"nm", "-D", "--defined-only", GLCAST_SHIM});
+    const auto exported = matches(symbols, R"([0-9a-f]+ \w (\S+))");
+    std::set<std::string> expected = {"dlsym", "dlopen"};
+    expected.insert(gl_call_names, gl_call_names + gl_call_count);
+    for (const std::string& name : exported)
+        EXPECT_TRUE(expected.contains(name) || name.starts_with("glX") || name.starts_with("egl")) << name;
+    for (const std::string& name : expected) EXPECT_TRUE(exported.contains(name)) << name;
+    for (const char* name : {"glXSwapBuffers", "glXGetProcAddressARB", "eglSwapBuffers", "eglGetProcAddress"})
+        EXPECT_TRUE(exported.contains(name)) << name;
+}
+
+class TailCall : public testing::TestWithParam<const char*> {};
+
+TEST_P(TailCall, ends_in_a_jump_to_the_real_one) {
+    const std::string code = disassembly(GetParam());
+    // The last call of a function that only returns would be `call *` and `ret`.
+    EXPECT_TRUE(std::regex_search(code, std::regex(R"(\bjmp +\*|\bbr\s+x)"))) << code;
+    EXPECT_FALSE(std::regex_search(code, std::regex(R"(\bcall +\*|\bblr\s+x)"))) << code;
+}
+INSTANTIATE_TEST_SUITE_P(Loader, TailCall, testing::Values("dlsym", "dlopen"));
+
+TEST(Library, idle_stub_is_a_load_a_branch_and_a_jump) {
+    if (*GLCAST_SANITIZER_RUNTIME) GTEST_SKIP() << "sanitizers add checks";
+    std::istringstream code(disassembly("glVertex3f"));
+    std::vector<std::string> instructions;
+    bool inside = false;
+    for (std::string line; std::getline(code, line);) {
+        if (line.find("<glVertex3f>:") != std::string::npos)
+            inside = true;
+        else if (inside && line.find('\t') != std::string::npos)
+            instructions.push_back(line);
+    }
+    ASSERT_GE(instructions.size(), 4u);
+    const bool jumps = instructions[3].find("jmp") != std::string::npos; // mov, test, jne, jmp
+    EXPECT_TRUE(jumps) << instructions[0] << "\n"
+                       << instructions[1] << "\n"
+                       << instructions[2] << "\n"
+                       << instructions[3];
+}
+
+} // namespace
+} // namespace glcast::test

@@ -1,0 +1,96 @@
+// The ways by which programs reach GL, and the processes and threads they do it in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/preload/program_run.h"
+
+namespace glcast::test {
+namespace {
+
+struct Road {
+    const char* name;
+    std::vector<std::string> arguments;
+};
+
+const Road roads[] = {
+    {"glx_linked", {FIXTURE_GLX, "--loader", "linked"}},
+    {"glx_getproc", {FIXTURE_GLX, "--loader", "getproc"}},
+    {"glx_dlopen", {FIXTURE_GLX_DLOPEN, "--loader", "dlopen"}},
+    {"glx_dlopen_deepbind", {FIXTURE_GLX_DLOPEN, "--loader", "dlopen-deepbind"}},
+    {"egl_linked", {FIXTURE_EGL, "--loader", "linked"}},
+    {"egl_getproc", {FIXTURE_EGL, "--loader", "getproc"}},
+    {"egl_dlopen", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen"}},
+    {"egl_dlopen_deepbind", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen-deepbind"}},
+    {"second_thread", {FIXTURE_GLX, "--thread"}},
+    {"two_windows", {FIXTURE_GLX, "--windows", "2"}},
+};
+
+class Loader : public testing::TestWithParam<Road> {};
+
+TEST_P(Loader, is_cast_and_not_noticed) {
+    std::vector<std::string> arguments = GetParam().arguments;
+    arguments.insert(arguments.end(),
+                     {"--shape", "cube", "--way", "list", "--frames", "2", "--size", "160x120"});
+    const FixtureRun plain = run_fixture(arguments, {}, false);
+    const FixtureRun cast = cast_fixture(arguments);
+    ASSERT_TRUE(cast.capture) << cast.outcome.err;
+    EXPECT_EQ(cast.capture->images.size(), 6u);
+    EXPECT_EQ(cast.outcome.exit_code, 0);
+    EXPECT_EQ(plain.outcome.out, cast.outcome.out);
+    EXPECT_TRUE(plain.pixels == cast.pixels);
+    EXPECT_EQ(plain.errors, cast.errors);
+    EXPECT_EQ(plain.state, cast.state);
+}
+INSTANTIATE_TEST_SUITE_P(Roads, Loader, testing::ValuesIn(roads),
+                         [](const auto& info) { return info.param.name; });
+
+/// Lines that say so; there must be one.
+long captures(const Outcome& outcome) {
+    const auto lines = glcast_lines(outcome);
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const auto& line) { return line.starts_with("captured"); });
+}
+
+struct CastProgram {
+    Outcome outcome;
+    std::optional<Capture> capture;
+};
+CastProgram cast(const std::vector<std::string>& arguments) {
+    const TemporaryFolder folder;
+    CastProgram result;
+    result.outcome = run_program(arguments, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "32"}}, true);
+    if (captures(result.outcome)) result.capture = read_capture(folder / "cast.exr");
+    return result;
+}
+
+TEST(Process, child_of_a_launcher_is_cast) {
+    const std::string fixture = FIXTURE_GLX;
+    const auto result = cast({"sh", "-c", fixture + " --shape cube --frames 1; exit 5"});
+    EXPECT_TRUE(result.capture) << result.outcome.err;
+    EXPECT_EQ(result.outcome.exit_code, 5);
+}
+
+TEST(Process, forked_child_leaves_the_capture_alone) {
+    const auto result = cast({FORKS});
+    ASSERT_TRUE(result.capture) << result.outcome.err;
+    EXPECT_EQ(result.capture->info.frame, 2); // the first is empty
+    EXPECT_EQ(result.outcome.exit_code, 0);
+    EXPECT_EQ(captures(result.outcome), 1);
+    EXPECT_EQ(result.outcome.err.find("nothing captured"), std::string::npos) << result.outcome.err;
+}
+
+TEST(Plugin, found_by_runpath_and_cast) {
+    const auto result = cast({PLUGIN_HOST, "libcubes_plugin.so"});
+    EXPECT_TRUE(result.capture) << result.outcome.err;
+    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
+}
+
+TEST(Plugin, bound_to_itself_is_cast_too) {
+    const auto result = cast({PLUGIN_HOST, CUBES_PLUGIN, "deepbind"});
+    EXPECT_TRUE(result.capture) << result.outcome.err;
+    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
+}
+
+} // namespace
+} // namespace glcast::test
