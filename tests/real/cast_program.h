@@ -13,11 +13,12 @@ struct RealProgram {
     std::string name; ///< of the files that the cast leaves in the output folder
     std::vector<std::string> command;
     int n = 256;
-    std::vector<std::pair<std::string, std::string>> environment;
-    std::vector<std::string> options; ///< more for glcast-run
+    std::vector<std::pair<std::string, std::string>> environment = {};
+    std::vector<std::string> options = {}; ///< more for glcast-run
 };
 
 struct Cast {
+    std::string name;
     std::string error;     ///< what went wrong, empty when all went well
     std::string oracle;    ///< what the independent check says of the mesh
     bool manifold = false; ///< by the independent check

@@ -119,36 +119,36 @@ TEST_F(GlcastRun, RefusesSetuidPrograms) {
 
 TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
     const CommandResult result =
-        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX program;captured a.exr");
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;casting 3;captured 3 a.exr");
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("sleep is cast in a.exr"));
+    EXPECT_THAT(result.err, HasSubstr("frame 3 of sleep is cast in " + capture()));
     EXPECT_TRUE(fs::exists(capture()));
 }
 
 TEST_F(GlcastRun, NamesTheCaptureAfterTheProgram) {
     const CommandResult result =
-        run({"--quit", "--", "/usr/bin/env", "printenv", "GLCAST_OUT"}, "hooked GLX program");
+        run({"--quit", "--", "/usr/bin/env", "printenv", "GLCAST_OUT"}, "hooked GLX");
     EXPECT_EQ(result.out, (fs::current_path() / "env.exr").string() + "\n");
 }
 
 TEST_F(GlcastRun, EndsAProgramThatIgnoresTheRequest) {
     const CommandResult result =
         run({"--quit", "-o", capture(), "--", "sh", "-c", "trap '' TERM; exec sleep " + nap},
-            "hooked GLX program;captured a.exr");
+            "hooked GLX;captured 1 a.exr");
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(GlcastRun, EndsEverythingTheProgramStarted) {
     const std::string script = "sleep " + nap + " & setsid sleep " + nap + " & exec sleep " + nap;
     const CommandResult result =
-        run({"--quit", "-o", capture(), "--", "sh", "-c", script}, "hooked GLX program;captured a.exr");
+        run({"--quit", "-o", capture(), "--", "sh", "-c", script}, "hooked GLX;captured 1 a.exr");
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(GlcastRun, FollowsALauncherToItsChild) {
     const CommandResult result =
         run({"-o", capture(), "--", "sh", "-c", "(sleep 0.2; date > /dev/null) & exit 0"},
-            "hooked EGL program;captured a.exr", "date");
+            "hooked EGL;captured 5 a.exr", "date");
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
@@ -163,24 +163,24 @@ TEST_F(GlcastRun, SaysWhatWasSeenInstead) {
     };
     EXPECT_EQ(why("", {"true"}), "glcast-run: no GL seen: the program ended\n");
     EXPECT_EQ(why("", {"sleep", nap}), "glcast-run: no GL seen: gave up after 0.5 s\n");
-    EXPECT_THAT(why("hooked GLX program", {"sleep", nap}),
-                HasSubstr("GLX program, but no frame with solid geometry"));
-    EXPECT_THAT(why("hooked EGL program;exit 8 frames, none with solid geometry", {"true"}),
-                HasSubstr(": 8 frames, none with solid geometry"));
-    EXPECT_EQ(why("hooked GLX program;failed no framebuffer objects", {"sleep", nap}),
+    EXPECT_THAT(why("hooked GLX", {"true"}), HasSubstr("GLX seen, but no whole frame"));
+    EXPECT_THAT(why("hooked EGL;frames 1;frames 8", {"sleep", nap}),
+                HasSubstr("8 frames or more seen through EGL, none with solid geometry"));
+    EXPECT_THAT(why("hooked GLX;casting 2", {"true"}), HasSubstr("the capture of frame 2 was not complete"));
+    EXPECT_EQ(why("hooked GLX;failed no framebuffer objects", {"sleep", nap}),
               "glcast-run: no framebuffer objects\n");
 }
 
 TEST_F(GlcastRun, PassesOnCtrlC) {
     const CommandResult result =
-        run({"-o", capture(), "--", "sh", "-c", "kill -INT $PPID; exec sleep " + nap}, "hooked GLX program");
+        run({"-o", capture(), "--", "sh", "-c", "kill -INT $PPID; exec sleep " + nap}, "hooked GLX");
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("interrupted"));
 }
 
 TEST_F(GlcastRun, ListsGroupsOnStandardOutput) {
     const CommandResult result =
-        run({"--list", "--", "sleep", nap}, "hooked GLX program;group 1 three gears;group 2 a wall;listed 1");
+        run({"--list", "--", "sleep", nap}, "hooked GLX;group 1 three gears;group 2 a wall;listed 1");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "1 three gears\n2 a wall\n");
 }
@@ -206,7 +206,7 @@ TEST_F(GlcastRun, PreloadsFromAFolderWithASpace) {
     fs::create_directories(folder / "a b");
     fs::copy_file(TOY_SHIM, folder / "a b/libglcast.so");
     const CommandResult result =
-        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX program;captured a.exr", "sleep",
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;captured 1 a.exr", "sleep",
             {{"GLCAST_LIBRARY", folder / "a b/libglcast.so"}});
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }

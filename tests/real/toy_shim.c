@@ -35,9 +35,7 @@ __attribute__((constructor)) static void speak(void) {
         if (strncmp(line, "captured", 8) == 0) {
             append(getenv("GLCAST_OUT"), "capture", O_CREAT);
         }
-        char status_line[512];
-        snprintf(status_line, sizeof status_line, "%d %s", getpid(), line);
-        append(status, status_line, 0);
+        append(status, line, 0);
     }
     free(copy);
 }

@@ -114,17 +114,18 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
 }
 
 int report(const Options& options, const Seen& seen, const std::string& ending) {
-    if (options.list && !seen.listed.empty()) {
+    if (options.list && seen.listed) {
         for (const std::string& group : seen.groups) {
             std::cout << group << '\n';
         }
         return 0;
     }
-    if (seen.capture.empty()) {
+    if (!seen.captured) {
         return fail(describe_failure(seen, ending));
     }
     const std::string name = fs::path(options.program[0]).filename().string();
-    std::cerr << "glcast-run: " << name << " is cast in " << seen.capture << '\n';
+    std::cerr << "glcast-run: frame " << seen.captured_frame << " of " << name << " is cast in "
+              << options.output << '\n';
     return 0;
 }
 

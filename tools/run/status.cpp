@@ -4,35 +4,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <map>
-#include <sstream>
 
 namespace glcast::run {
 
 void take_line(const std::string& line, Seen& seen) {
-    struct Event {
-        long pid;
-        std::string text;
-    };
-    using Take = void (*)(const Event&, Seen&);
-    static const std::map<std::string, Take> events = {
-        {"hooked", [](const Event& e, Seen& s) { s.hooked = e.text, s.gl_processes.insert(e.pid); }},
-        {"group", [](const Event& e, Seen& s) { s.groups.push_back(e.text); }},
-        {"listed", [](const Event& e, Seen& s) { s.listed = e.text.empty() ? "a frame" : e.text; }},
-        {"captured", [](const Event& e, Seen& s) { s.capture = e.text; }},
+    using Take = std::function<void(const std::string&, Seen&)>;
+    const auto number = [](const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); };
+    static const std::map<std::string, Take> kinds = {
+        {"hooked", [](const std::string& rest, Seen& s) { s.api = rest; }},
+        {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
+        {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
+        {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
+        {"captured",
+         [=](const std::string& rest, Seen& s) { s.captured = true, s.captured_frame = number(rest); }},
         {"failed",
-         [](const Event& e, Seen& s) { s.failed = e.text.empty() ? "the capture failed" : e.text; }},
-        {"exit", // of a launcher's helpers, which see no GL, nobody wants to know
-         [](const Event& e, Seen& s) { s.at_exit = s.gl_processes.contains(e.pid) ? e.text : s.at_exit; }},
+         [](const std::string& rest, Seen& s) { s.failed = rest.empty() ? "the capture failed" : rest; }},
+        {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},
+        {"listed", [](const std::string&, Seen& s) { s.listed = true; }},
     };
-    std::istringstream words(line);
-    Event event{};
-    std::string kind;
-    words >> event.pid >> kind >> std::ws;
-    std::getline(words, event.text);
-    if (const auto known = events.find(kind); known != events.end()) {
-        known->second(event, seen);
+    const auto space = std::min(line.find(' '), line.size());
+    if (const auto kind = kinds.find(line.substr(0, space)); kind != kinds.end()) {
+        kind->second(line.substr(std::min(space + 1, line.size())), seen);
     }
 }
 
@@ -40,13 +36,20 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     if (!seen.failed.empty()) {
         return seen.failed;
     }
-    if (seen.hooked.empty()) {
+    if (seen.api.empty()) {
         return "no GL seen: " + ending;
     }
-    if (!seen.at_exit.empty()) {
-        return seen.at_exit + ": " + ending;
+    if (seen.casting > 0) {
+        return "the capture of frame " + std::to_string(seen.casting) + " was not complete: " + ending +
+               " (a longer --timeout or a smaller -n helps)";
     }
-    return seen.hooked + ", but no frame with solid geometry was cast: " + ending;
+    const std::string refused =
+        seen.refused.empty() ? "" : " (a frame could not be recorded: " + seen.refused + ")";
+    if (seen.frames == 0) {
+        return seen.api + " seen, but no whole frame" + refused + ": " + ending;
+    }
+    return std::to_string(seen.frames) + (seen.frames == 1 ? " frame" : " frames or more") +
+           " seen through " + seen.api + ", none with solid geometry to cast" + refused + ": " + ending;
 }
 
 StatusPipe::StatusPipe() {

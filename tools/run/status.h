@@ -1,7 +1,6 @@
-// What the shim tells (shim/preload/status.h has the lines), and the pipe it comes through.
+// What the shim tells (docs/status-lines.md), and the pipe it comes through.
 #pragma once
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -9,22 +8,24 @@ namespace glcast::run {
 
 /// What is known of the program's drawing so far.
 struct Seen {
-    std::string hooked;          ///< "GLX program" or "EGL program", empty while no GL was seen
-    std::set<long> gl_processes; ///< the processes that said so
-    std::string capture;         ///< path of the complete capture
-    std::string failed;          ///< why there will be none
-    std::string at_exit;         ///< what a process with GL had seen when it ended
+    std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
+    long frames = 0;     ///< at least so many have ended without a cast
+    std::string refused; ///< why a frame could not be recorded, the last one
+    long casting = 0;    ///< the frame being cast
+    bool captured = false;
+    long captured_frame = 0;
+    std::string failed;
     std::vector<std::string> groups;
-    std::string listed; ///< of which frame all groups are told
+    bool listed = false;
 
-    bool finished() const { return !capture.empty() || !listed.empty() || !failed.empty(); }
+    bool finished() const { return captured || listed || !failed.empty(); }
 };
 
-/// Takes one line in, "PID EVENT TEXT"; events that are not known are skipped.
+/// Takes one line in; kinds that are not known are skipped.
 void take_line(const std::string& line, Seen& seen);
 
-/// Why there is no capture, in one line. `ending` says how the wait ended: "the program ended", "gave up
-/// after 120 s".
+/// Why there is no capture, in one line. `ending` says how the wait ended: "the program ended", "after 120
+/// s".
 std::string describe_failure(const Seen& seen, const std::string& ending);
 
 /// A named pipe in a folder of its own, both gone with it. The folder also holds what else a run needs.
