@@ -1,6 +1,6 @@
 // A flat closing leaves a function whose sublevel sets are convex as it is, on the lattice too: a half-plane
 // of pixels is closed under every disc. On concave outlines the digital disc is a little too coarse, so a
-// change is taken only where it removes a slit: pixels on two opposite sides within 2r + 1, and a step deeper
+// change is taken only where it removes a slit: pixels on two opposite sides close by, and a step deeper
 // than `slit_depth`.
 #include "tools/reconstruct/closing.h"
 
@@ -35,7 +35,7 @@ std::vector<float> disc_filter(const Image& in, double radius, float outside, Pi
     return out;
 }
 
-/// Is there, on a line through the pixel, a pixel no deeper than `level` on both sides, 2r + 1 apart at most?
+/// Is there, on a line through the pixel, a pixel no deeper than `level` on both sides, 2 radius + 1 apart at most?
 bool between_walls(const Image& depth, int u, int v, float level, double radius) {
     constexpr int lines[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     const double reach = 2 * radius + 1 + 1e-6;
@@ -81,10 +81,11 @@ void negate(std::vector<float>& depth) {
 
 ClosedDepths close_depths(const AxisRays& rays, int n, double radius) {
     ClosedDepths out{rays.depth[0], rays.depth[1]};
-    if (radius < 1) return out;
-    out.front = close(rays.depth[0], n, radius);
+    if (radius <= 0) return out;
+    const double disc = radius + 0.5; // of pixels, which reach half a sample further: slits up to 2r + 1 wide
+    out.front = close(rays.depth[0], n, disc);
     negate(out.back);
-    out.back = close(out.back, n, radius);
+    out.back = close(out.back, n, disc);
     negate(out.back);
     for (std::size_t p = 0; p < out.front.size(); ++p)
         if (out.front[p] == no_depth || out.back[p] == -no_depth || out.front[p] > out.back[p]) {

@@ -9,7 +9,7 @@ struct ClosedDepths {
     std::vector<float> front, back;
 };
 
-/// Slits up to 2 `radius` samples wide are closed when they are deeper than a few samples; everything else,
+/// Slits narrower than 2 `radius` + 1 samples are closed when they are deeper than a few samples; everything else,
 /// every convex body in particular, comes back unchanged. Radius 0 changes nothing.
 ClosedDepths close_depths(const AxisRays& rays, int n, double radius);
 
