@@ -49,6 +49,7 @@ class Capture {
         if (report.error.empty()) find();
         if (report.error.empty()) capture_views();
         report.draws = passes.draws();
+        swallow_errors(gl);
         report.ok = report.error.empty();
     }
 

@@ -24,7 +24,8 @@ bool has_float_targets(const GlTable& gl) {
 /// The program's pixel paths are not for our reads.
 void reset_pixel_state(const GlTable& gl) {
     constexpr GLenum zero[] = {GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST, GL_PACK_ROW_LENGTH,
-                               GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_IMAGES};
+                               GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_IMAGES,
+                               GL_PACK_INVERT_MESA};
     for (GLenum name : zero) gl.PixelStorei(name, 0);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     constexpr GLenum scales[] = {GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE, GL_DEPTH_SCALE};
