@@ -1,7 +1,6 @@
 #include "capture/capture_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <exception>
 
@@ -112,13 +111,6 @@ std::size_t room_for_headers(const CaptureInfo& info, int parts) {
 
 float tame(float value, float lo, float hi) { return std::isnan(value) ? 0.0f : std::clamp(value, lo, hi); }
 
-/// A normal's component without the last 8 bits of its mantissa, which are noise: off by 0.001 degree at
-/// most, and the file is a seventh smaller.
-float rounded(float value) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
-    return std::bit_cast<float>((bits + 0x80u) & ~0xffu);
-}
-
 /// The channels of image row `row`, in the order of channel_table; what GL may leave odd is made plain here:
 /// nothing that is not a number, colours and depths in 0..1, nothing but background where nothing was drawn.
 void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<float>>& planes, Part& part) {
@@ -134,9 +126,9 @@ void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<
                                              tame(colour.b, 0, 1),
                                              tame(colour.g, 0, 1),
                                              valid ? 1.0f : 0.0f,
-                                             valid ? rounded(normal.x) : 0.0f,
-                                             valid ? rounded(normal.y) : 0.0f,
-                                             valid ? rounded(normal.z) : 0.0f,
+                                             valid ? exr::without_noise(normal.x) : 0.0f,
+                                             valid ? exr::without_noise(normal.y) : 0.0f,
+                                             valid ? exr::without_noise(normal.z) : 0.0f,
                                              tame(colour.r, 0, 1),
                                              covered ? std::clamp(image.depth[from], 0.0f, 1.0f)
                                                      : ViewImage::background(image.view.side)};

@@ -158,7 +158,6 @@ TEST(Glb, KhronosValidatorFindsNothing) {
     write_levels(folder / "far.glb", std::vector{level_of(moved(small, {5e5, 0, -3e6}), "level 0")});
     write_levels(folder / "bare.glb", std::vector{level_of(bare, "level 0")});
     const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
-    if (ran.status == 2) GTEST_SKIP() << "no gltf-validator here (tests/run installs it): " << ran.output;
     EXPECT_EQ(ran.status, 0) << ran.output;
 }
 
