@@ -56,6 +56,8 @@ Span span_at(const AxisRays& rays, int n, int u, int v) {
     return {rays.depth[0][p], rays.depth[1][p]};
 }
 
+constexpr float far = 4; // samples: a steep sheet may go on so much deeper in the next pixel
+
 /// Between two samples: the last sliver of a thick body, where it curves away from the ray, or a sheet? A
 /// sliver has the thick body on one side and nothing on the other.
 bool is_sheet(const AxisRays& rays, int n, int u, int v) {
@@ -67,7 +69,7 @@ bool is_sheet(const AxisRays& rays, int n, int u, int v) {
             const Span beyond = span_at(rays, n, u - du, v - dv);
             const bool thick =
                 body.holds_sample() && body.front < here.back + 1 && body.back > here.front - 1;
-            const bool open = !beyond.hit() || beyond.front > here.back + 1 || beyond.back < here.front - 1;
+            const bool open = !beyond.hit() || beyond.front > here.back + far || beyond.back < here.front - far;
             if (thick && open) return false;
         }
     return true;
