@@ -121,6 +121,19 @@ TEST_F(Command, RefusalsAreOneLineAndLeaveNothing) {
     EXPECT_EQ(folder.names(), before);
 }
 
+TEST_F(Command, CtrlCLeavesNothing) {
+    ASSERT_EQ(write_sphere(file("large.exr"), 160), "");
+    for (const char* seconds : {"0.02", "0.1", "0.3"}) {
+        run("timeout -s INT " + std::string(seconds) + " " GLCAST_COMMAND " mesh " + file("large.exr") +
+            " -o " + file("o.glb"));
+        for (const std::string& name : folder.names())
+            EXPECT_TRUE(name == "s.exr" || name == "large.exr" || name == "o.glb") << name;
+        if (std::filesystem::exists(file("o.glb"))) {
+            EXPECT_NO_THROW(read_levels(file("o.glb"))) << "whole or not at all";
+        }
+    }
+}
+
 TEST_F(Command, Usage) {
     for (const char* arguments :
          {"", "frobnicate", "mesh", "mesh a.exr", "mesh a.exr -o b.glb --method spheres",
