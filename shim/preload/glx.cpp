@@ -37,6 +37,7 @@ namespace {
     X(glXMakeCurrentReadSGI)                                                                                 \
     X(glXSwapBuffers)                                                                                        \
     X(glXSwapBuffersMscOML)                                                                                  \
+    X(glXWaitGL)                                                                                             \
     X(glXUseXFont)
 
 // Asked for, not interposed.
@@ -248,6 +249,12 @@ GLCAST_EXPORT int64_t glXSwapBuffersMscOML(Display* display, GLXDrawable drawabl
     if (!real().glXSwapBuffersMscOML) return -1;
     return swap(drawable,
                 [=] { return real().glXSwapBuffersMscOML(display, drawable, target, divisor, remainder); });
+}
+
+GLCAST_EXPORT void glXWaitGL() {
+    const Outermost outermost;
+    real().glXWaitGL();
+    if (outermost) flushed();
 }
 
 /// Its lists are made inside the library, where nobody sees them: they hold bitmaps only, never a solid.

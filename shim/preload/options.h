@@ -1,4 +1,4 @@
-// What the environment asks for: each option of glcast-run is a variable (docs/architecture.md).
+// What the environment asks for: each option of glcast-run is a variable.
 #pragma once
 #include <glm/mat4x4.hpp>
 #include <optional>

@@ -158,6 +158,24 @@ void cast_recorded_frame(Session& s, NativeContext& context, long number) {
     finish(s, context, result);
 }
 
+/// Count the frame that ends here, and cast it if it was recorded.
+void end_frame(Session& s, NativeContext& context, std::uintptr_t drawable) {
+    ++s.frames;
+    long number = 0;
+    {
+        const std::lock_guard lock(s.mutex);
+        number = ++context.frames[drawable];
+    }
+    if (context.recording) cast_recorded_frame(s, context, number);
+}
+
+bool draws_to_front() {
+    GLint buffer = GL_BACK;
+    real_table().GetIntegerv(GL_DRAW_BUFFER, &buffer);
+    return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_FRONT_RIGHT ||
+           buffer == GL_FRONT_AND_BACK;
+}
+
 const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
@@ -169,7 +187,7 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
     if (!s || (!s->hooked && !s->settled)) return say("no GL seen in %s: nothing captured", program.c_str());
     if (!s->is_ours() || s->settled) return;
     const long frames = s->frames, empty = s->empty_frames;
-    if (frames == 0) return say("%s ended no frame with a swap: nothing captured", program.c_str());
+    if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
     if (empty == 0)
         return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
                    frames, plural(frames));
@@ -252,13 +270,7 @@ void before_swap(std::uintptr_t drawable) noexcept {
     guarded([&](Session& s) {
         NativeContext* const context = thread_state.context;
         if (!context || !context->shadow || thread_state.drawable != drawable) return;
-        ++s.frames;
-        long number = 0;
-        {
-            const std::lock_guard lock(s.mutex);
-            number = ++context->frames[drawable];
-        }
-        if (context->recording) cast_recorded_frame(s, *context, number);
+        end_frame(s, *context, drawable);
     });
 }
 
@@ -267,6 +279,16 @@ void after_swap(std::uintptr_t drawable) noexcept {
         NativeContext* const context = thread_state.context;
         if (context && context->shadow && thread_state.drawable == drawable)
             start_recording(s, *context, drawable);
+    });
+}
+
+void flushed() noexcept {
+    guarded([](Session& s) {
+        NativeContext* const context = thread_state.context;
+        if (!s.waiting || !context || !context->shadow || thread_state.drawable == 0) return;
+        if (record::busy(*context->shadow) || !draws_to_front()) return;
+        end_frame(s, *context, thread_state.drawable);
+        start_recording(s, *context, thread_state.drawable);
     });
 }
 

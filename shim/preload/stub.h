@@ -29,6 +29,9 @@ const GlTable& resolve(GlCall call);
 /// The recorder's, after making this thread known to it.
 const GlTable& recording_table();
 
+/// After a real glFlush or glFinish: the end of a frame for who draws to the front buffer.
+void flushed() noexcept;
+
 } // namespace glcast::preload
 
 // A stub is a load, a branch that is never taken in an idle program, and an indirect tail call. The asm label
@@ -40,6 +43,18 @@ const GlTable& recording_table();
             return glcast::preload::idle.NAME ARGUMENTS;                                                     \
         return glcast::preload::recording_table().NAME ARGUMENTS;                                            \
     }                                                                                                        \
+    GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
+
+#define GLCAST_FRAME_END_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                           \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub() __asm__("gl" #NAME);                            \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub() {                                               \
+        const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
+        (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME();                         \
+        glcast::preload::flushed();                                                                          \
+    }                                                                                                        \
+    GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
+
+#define GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)                                                    \
     namespace glcast::preload::thunk {                                                                       \
     RESULT APIENTRY NAME PARAMETERS { return resolve(GlCall::NAME).NAME ARGUMENTS; }                         \
     }

@@ -24,6 +24,7 @@ const Road roads[] = {
     {"egl_dlopen_deepbind", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen-deepbind"}},
     {"second_thread", {FIXTURE_GLX, "--thread"}},
     {"two_windows", {FIXTURE_GLX, "--windows", "2"}},
+    {"single_buffered", {FIXTURE_GLX, "--single-buffered"}},
 };
 
 class Loader : public testing::TestWithParam<Road> {};
