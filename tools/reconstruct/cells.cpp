@@ -60,7 +60,7 @@ bool Sweep::fill_row_with_sheets(int y, int z) {
     std::fill(bytes.begin(), bytes.end(), 0);
     for (int x = 0; x < n; ++x) {
         const std::array<int, 3> s{x, y, z};
-        const bool all = rays.left_by(0, s) && rays.left_by(1, s) && rays.left_by(2, s);
+        const bool all = rays.left_by_all(s);
         bytes[x + 1] = all || rays.filled(s);
         sheets += bytes[x + 1] && !all;
     }
@@ -84,8 +84,8 @@ void Sweep::fill(int z, Slice& slice) {
     slice.clear();
     if (z < 0 || z >= n) return;
     for (int y = 0; y < n; ++y) {
-        const bool sheet_near = rays.axis[0].sheet[std::size_t(z) * n + y] || rays.axis[1].row_has_sheet[z] ||
-                                rays.axis[2].row_has_sheet[y];
+        const bool sheet_near = rays.axis[0].keep[std::size_t(z) * n + y] || rays.axis[1].row_keeps[z] ||
+                                rays.axis[2].row_keeps[y];
         if (sheet_near ? fill_row_with_sheets(y, z) : fill_row(y, z)) pack(slice.row(y), slice.words);
     }
 }

@@ -35,7 +35,8 @@ std::vector<float> disc_filter(const Image& in, double radius, float outside, Pi
     return out;
 }
 
-/// Is there, on a line through the pixel, a pixel no deeper than `level` on both sides, 2 radius + 1 apart at most?
+/// Is there, on a line through the pixel, a pixel no deeper than `level` on both sides, 2 radius + 1 apart at
+/// most?
 bool between_walls(const Image& depth, int u, int v, float level, double radius) {
     constexpr int lines[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     const double reach = 2 * radius + 1 + 1e-6;

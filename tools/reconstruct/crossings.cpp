@@ -175,6 +175,17 @@ float sheet_side(const AxisRays& rays, std::size_t pixel, int side) {
     return side ? std::max(back, middle + half_thickness) : std::min(front, middle - half_thickness);
 }
 
+/// The edge leaves a thin wall that the ray came upon from the other side.
+std::optional<Crossing> back_of_wall(const Edge& e, std::size_t pixel) {
+    const AxisRays& along = e.rays.axis[e.axis];
+    const int other = 1 - e.side();
+    const bool wall = other ? (along.keep[pixel] & keep_last) && along.last[pixel] == e.filled[e.axis]
+                            : (along.keep[pixel] & keep_first) && along.first[pixel] == e.filled[e.axis];
+    if (!wall) return std::nullopt;
+    return Crossing{along.depth[other][pixel] + float(e.towards) * 2 * half_thickness,
+                    -plane_of(e.rays, e.axis, other, pixel), true};
+}
+
 } // namespace
 
 Crossing find_crossing(const Rays& rays, int axis, const std::array<int, 3>& low, bool low_filled) {
@@ -184,8 +195,9 @@ Crossing find_crossing(const Rays& rays, int axis, const std::array<int, 3>& low
     const std::size_t pixel = rays.pixel(axis, e.filled);
     const AxisRays& along = rays.axis[axis];
     const float t = along.depth[e.side()][pixel], floor = float(low[axis]);
-    if (along.sheet[pixel] && std::abs(t - float(e.filled[axis])) <= 1)
+    if ((along.keep[pixel] & keep_between) && std::abs(t - float(e.filled[axis])) <= 1)
         return {sheet_side(along, pixel, e.side()), plane_of(rays, axis, e.side(), pixel), true};
+    if (const auto back = back_of_wall(e, pixel)) return *back;
     if (t >= floor - tolerance && t <= floor + 1 + tolerance)
         return {t, plane_of(rays, axis, e.side(), pixel), true};
     const Estimate guess = estimate(e);

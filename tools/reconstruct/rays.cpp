@@ -58,56 +58,98 @@ Span span_at(const AxisRays& rays, int n, int u, int v) {
 
 constexpr float far = 4; // samples: a steep sheet may go on so much deeper in the next pixel
 
-/// Between two samples: the last sliver of a thick body, where it curves away from the ray, or a sheet? A
-/// sliver has the thick body on one side and nothing on the other.
-bool is_sheet(const AxisRays& rays, int n, int u, int v) {
-    const Span here = span_at(rays, n, u, v);
+/// What a ray holds too little of: the last sliver of a thick body, where it curves away from the ray, or a
+/// sheet? A sliver has the thick body (samples that stay) on one side and nothing on the other.
+template <class Stays>
+bool is_sheet(const AxisRays& rays, int n, int u, int v, float front, float back, Stays stays) {
     for (int dv = -1; dv <= 1; ++dv)
         for (int du = -1; du <= 1; ++du) {
             if (!du && !dv) continue;
-            const Span body = span_at(rays, n, u + du, v + dv);
             const Span beyond = span_at(rays, n, u - du, v - dv);
-            const bool thick =
-                body.holds_sample() && body.front < here.back + 1 && body.back > here.front - 1;
-            const bool open = !beyond.hit() || beyond.front > here.back + far || beyond.back < here.front - far;
-            if (thick && open) return false;
+            const bool open = !beyond.hit() || beyond.front > back + far || beyond.back < front - far;
+            if (open && stays(u + du, v + dv)) return false;
         }
     return true;
+}
+
+void keep(AxisRays& rays, int n, int u, int v, Keep what) {
+    rays.keep[std::size_t(v) * n + u] |= what;
+    rays.row_keeps[v] = 1;
 }
 
 void find_samples(AxisRays& rays, int n, const ClosedDepths& closed) {
     const std::size_t pixels = std::size_t(n) * n;
     rays.first.assign(pixels, 32767);
     rays.last.assign(pixels, -1);
-    rays.sheet.assign(pixels, 0);
-    rays.row_has_sheet.assign(n, 0);
+    rays.keep.assign(pixels, 0);
+    rays.row_keeps.assign(n, 0);
     for (int v = 0; v < n; ++v)
         for (int u = 0; u < n; ++u) {
             const std::size_t p = std::size_t(v) * n + u;
             const Span span{closed.front[p], closed.back[p]};
             if (!span.hit()) continue;
+            const auto thick = [&](int qu, int qv) {
+                const Span body = span_at(rays, n, qu, qv);
+                return body.holds_sample() && body.front < span.back + 1 && body.back > span.front - 1;
+            };
             if (span.holds_sample()) {
                 rays.first[p] = std::int16_t(std::ceil(span.front));
                 rays.last[p] = std::int16_t(std::floor(span.back));
-            } else if (is_sheet(rays, n, u, v)) {
+            } else if (is_sheet(rays, n, u, v, span.front, span.back, thick)) {
                 rays.first[p] = rays.last[p] =
                     std::int16_t(std::clamp(int(std::lround(span.middle())), 0, n - 1));
-                rays.sheet[p] = rays.row_has_sheet[v] = 1;
+                keep(rays, n, u, v, keep_between);
             }
         }
+}
+
+/// A wall thinner than a sample around a hollow that another axis looks into (the spout of the teapot): the
+/// sample behind the hit would be carved, and the wall with it.
+void keep_thin_walls(const Rays& rays, int a, int side, int v, std::vector<std::uint8_t>& kept) {
+    const AxisRays& axis = rays.axis[a];
+    const ImageAxes image = image_axes(Axis(a));
+    const auto& ends = side ? axis.last : axis.first;
+    const auto sample_at = [&](int u, int w) {
+        std::array<int, 3> s;
+        s[image.u] = u;
+        s[image.v] = w;
+        s[image.depth] = ends[std::size_t(w) * rays.n + u];
+        return s;
+    };
+    for (int u = 0; u < rays.n; ++u) {
+        const std::size_t p = std::size_t(v) * rays.n + u;
+        const float hit = axis.depth[side][p];
+        if (axis.first[p] > axis.last[p] || axis.keep[p] || !(std::abs(hit - float(ends[p])) <= 1)) continue;
+        if (rays.left_by_all(sample_at(u, v))) continue;
+        const auto stays = [&](int qu, int qv) {
+            if (qu < 0 || qv < 0 || qu >= rays.n || qv >= rays.n) return false;
+            const std::array<int, 3> s = sample_at(qu, qv);
+            return s[image.depth] >= 0 && s[image.depth] < rays.n &&
+                   std::abs(float(s[image.depth]) - hit) < 2 && rays.left_by_all(s);
+        };
+        kept[p] = is_sheet(axis, rays.n, u, v, hit, hit, stays);
+    }
+}
+
+void keep_all_thin_walls(Rays& rays) {
+    const int n = rays.n;
+    std::array<std::vector<std::uint8_t>, 6> kept;
+    for (int i = 0; i < 6; ++i) {
+        kept[i].assign(std::size_t(n) * n, 0);
+        tbb::parallel_for(0, n, [&](int v) { keep_thin_walls(rays, i / 2, i % 2, v, kept[i]); });
+    }
+    for (int i = 0; i < 6; ++i)
+        for (int v = 0; v < n; ++v)
+            for (int u = 0; u < n; ++u)
+                if (kept[i][std::size_t(v) * n + u])
+                    keep(rays.axis[i / 2], n, u, v, i % 2 ? keep_last : keep_first);
 }
 
 } // namespace
 
 bool Rays::filled(const std::array<int, 3>& s) const {
     if (!inside(s)) return false;
-    bool all = true;
-    for (int a = 0; a < 3; ++a) {
-        const bool left = left_by(a, s);
-        if (left && axis[a].sheet[pixel(a, s)]) return true;
-        all &= left;
-    }
-    return all;
+    return left_by_all(s) || kept_by(0, s) || kept_by(1, s) || kept_by(2, s);
 }
 
 Rays make_rays(std::span<const ViewImage> images, double close_gaps) {
@@ -124,6 +166,7 @@ Rays make_rays(std::span<const ViewImage> images, double close_gaps) {
         read_depths(rays.axis[a], rays.n);
         find_samples(rays.axis[a], rays.n, close_depths(rays.axis[a], rays.n, close_gaps));
     });
+    keep_all_thin_walls(rays);
     find_planes(rays);
     return rays;
 }
