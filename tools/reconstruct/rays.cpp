@@ -103,6 +103,18 @@ void find_samples(AxisRays& rays, int n, const ClosedDepths& closed) {
         }
 }
 
+/// Does an axis see past the sample, and not just graze it?
+bool is_carved(const Rays& rays, const std::array<int, 3>& s) {
+    constexpr float grazing = 0.05f; // samples, far above the noise of the depths
+    for (int a = 0; a < 3; ++a) {
+        const std::size_t p = rays.pixel(a, s);
+        const float at = float(s[a]);
+        if (rays.left_by(a, s)) continue;
+        if (at < rays.axis[a].depth[0][p] - grazing || at > rays.axis[a].depth[1][p] + grazing) return true;
+    }
+    return false;
+}
+
 /// A wall thinner than a sample around a hollow that another axis looks into (the spout of the teapot): the
 /// sample behind the hit would be carved, and the wall with it.
 void keep_thin_walls(const Rays& rays, int a, int side, int v, std::vector<std::uint8_t>& kept) {
@@ -120,7 +132,7 @@ void keep_thin_walls(const Rays& rays, int a, int side, int v, std::vector<std::
         const std::size_t p = std::size_t(v) * rays.n + u;
         const float hit = axis.depth[side][p];
         if (axis.first[p] > axis.last[p] || axis.keep[p] || !(std::abs(hit - float(ends[p])) <= 1)) continue;
-        if (rays.left_by_all(sample_at(u, v))) continue;
+        if (!is_carved(rays, sample_at(u, v))) continue;
         const auto stays = [&](int qu, int qv) {
             if (qu < 0 || qv < 0 || qu >= rays.n || qv >= rays.n) return false;
             const std::array<int, 3> s = sample_at(qu, qv);
