@@ -36,7 +36,7 @@ bool is_compatibility(const GlTable& gl, const Limits& limits) {
     if (limits.es || limits.version == 0) return false;
     if (limits.version < 31) return true;
     if (limits.version == 31) return limits.extensions.contains("GL_ARB_compatibility");
-    return get_int(gl, GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+    return !(get_int(gl, GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_CORE_PROFILE_BIT); // 0 from some drivers
 }
 
 Limits read_limits(const GlTable& gl) {

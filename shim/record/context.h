@@ -75,6 +75,7 @@ struct Recording {
     std::vector<std::uint32_t> counts = std::vector<std::uint32_t>(gl_call_count);
     std::size_t seen_changes = 0; ///< of ShareGroup::changes
     int attrib_depth = 0;         ///< GL_ATTRIB_STACK_DEPTH that the frame reached at the lowest
+    bool has_unread_matrices = false;
     int lowest[stack_count] = {}; ///< likewise of each matrix stack; 0: not watched, nothing lies below
     std::unordered_map<const void*, std::uint32_t> blob_numbers;
     std::unordered_map<GLuint, int> buffer_changes;

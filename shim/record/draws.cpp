@@ -6,6 +6,7 @@
 #include "shim/record/buffers.h"
 #include "shim/record/draw_packet.h"
 #include "shim/record/packets.h"
+#include "shim/record/readable.h"
 
 namespace glcast::record {
 
@@ -169,6 +170,10 @@ void pick_vertices(Draw& draw) {
     indices.blob = nullptr;
 }
 
+bool is_position(const Array& array) {
+    return array.kind == GL_VERTEX_ARRAY || array.kind == attribute_0_array;
+}
+
 bool find_source(Draw& draw, const Array& array) {
     Source source;
     source.array = &array;
@@ -179,8 +184,9 @@ bool find_source(Draw& draw, const Array& array) {
     const std::size_t bytes = std::size_t(draw.indices.hi - lo) * std::size_t(array.stride) + element;
     if (element == 0 || lo < 0) return false;
     if (!array.buffer) {
-        if (!array.pointer) return false;
         source.from = array.pointer + start;
+        if (!array.pointer || !is_readable(source.from, draw.picked.empty() ? bytes : element))
+            return !is_position(array); // nobody reads it, or GL would have fallen over it
     } else if (Blob blob = draw.may_refer ? whole_buffer(draw.context, array.buffer) : nullptr) {
         if (offset < 0 || std::size_t(offset + start) + bytes > blob->size()) return false;
         source.from = blob->data() + offset + start;
@@ -299,8 +305,7 @@ bool read_draw(Draw& draw) {
 }
 
 bool has_position(const Context& context) {
-    return !context.arrays.empty() &&
-           (context.arrays.back().kind == GL_VERTEX_ARRAY || context.arrays.back().kind == attribute_0_array);
+    return !context.arrays.empty() && is_position(context.arrays.back());
 }
 
 /// Calls that GL refuses draw nothing, so they are not recorded.

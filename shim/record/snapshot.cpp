@@ -388,6 +388,7 @@ void read_matrices(Context& context, Recording& recording) {
         frame.stacks[stack].assign(depth, identity);
         gl.GetFloatv(names.matrix, frame.stacks[stack].back().m);
         recording.lowest[stack] = int(depth);
+        recording.has_unread_matrices |= depth > 1;
     }
     if (frame.has_multitexture) gl.ActiveTexture(frame.active_texture);
     recording.attrib_depth = get_int(gl, GL_ATTRIB_STACK_DEPTH);

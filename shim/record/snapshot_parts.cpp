@@ -246,6 +246,9 @@ void write_default_textures(Context& context, Stream& stream) {
 
 void write_evaluators(Context& context, Stream& stream) {
     const GlTable& gl = context.real;
+    const bool has_units = context.get_limits().has(13);
+    if (has_units)
+        packets::ActiveTexture::write(stream, GL_TEXTURE0); // GL refuses maps while another is active
     for (int i = 0; i < 9; ++i) {
         const auto map1 = GLenum(GL_MAP1_COLOR_4 + i), map2 = GLenum(GL_MAP2_COLOR_4 + i);
         const auto n = GLint(sizes::map_components(map1));
@@ -272,6 +275,7 @@ void write_evaluators(Context& context, Stream& stream) {
     gl.GetDoublev(GL_MAP2_GRID_DOMAIN, grid);
     gl.GetIntegerv(GL_MAP2_GRID_SEGMENTS, segments);
     packets::MapGrid2d::write(stream, segments[0], grid[0], grid[1], segments[1], grid[2], grid[3]);
+    if (has_units) packets::ActiveTexture::write(stream, GLenum(get_int(gl, GL_ACTIVE_TEXTURE, GL_TEXTURE0)));
 }
 
 } // namespace glcast::record

@@ -9,6 +9,7 @@ namespace glcast::record {
 void note_popped_matrix(Context& context) {
     if (!context.recording || !context.can_query() || !context.executes()) return;
     Recording& recording = *context.recording;
+    if (!recording.has_unread_matrices) return;
     const GlTable& gl = context.real;
     const auto mode = GLenum(get_int(gl, GL_MATRIX_MODE));
     const int unit =

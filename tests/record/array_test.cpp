@@ -12,16 +12,18 @@ struct Vertex {
     GLfloat position[3];
 };
 const Vertex fan[] = {
-    {{255, 255, 255, 255}, {0, 0, 1}, {0, 0, 0.3f}},   {{255, 0, 0, 255}, {1, 0, 1}, {1, 0, 0}},
-    {{255, 255, 0, 255}, {1, 1, 1}, {0.5f, 0.9f, 0}},  {{0, 255, 0, 255}, {-1, 1, 1}, {-0.5f, 0.9f, 0}},
-    {{0, 255, 255, 255}, {-1, 0, 1}, {-1, 0, 0}},      {{0, 0, 255, 255}, {-1, -1, 1}, {-0.5f, -0.9f, 0}},
+    {{255, 255, 255, 255}, {0, 0, 1}, {0, 0, 0.3f}},    {{255, 0, 0, 255}, {1, 0, 1}, {1, 0, 0}},
+    {{255, 255, 0, 255}, {1, 1, 1}, {0.5f, 0.9f, 0}},   {{0, 255, 0, 255}, {-1, 1, 1}, {-0.5f, 0.9f, 0}},
+    {{0, 255, 255, 255}, {-1, 0, 1}, {-1, 0, 0}},       {{0, 0, 255, 255}, {-1, -1, 1}, {-0.5f, -0.9f, 0}},
     {{255, 0, 255, 255}, {1, -1, 1}, {0.5f, -0.9f, 0}}, {{9, 99, 199, 255}, {0, 0, 1}, {1, 0, 0.1f}},
 };
 const GLubyte indices8[] = {0, 1, 2, 0, 3, 4, 0, 5, 6};
 const GLushort indices16[] = {0, 1, 2, 0, 3, 4, 0, 5, 6};
 const GLuint indices32[] = {0, 1, 2, 0, 3, 4, 0, 5, 6};
 
-const std::byte* at(const void* base, std::size_t offset) { return static_cast<const std::byte*>(base) + offset; }
+const std::byte* at(const void* base, std::size_t offset) {
+    return static_cast<const std::byte*>(base) + offset;
+}
 
 void set_arrays(const GlTable& gl, const void* base) {
     gl.ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), at(base, offsetof(Vertex, colour)));
@@ -55,10 +57,23 @@ void restart_strip(const GlTable& gl, GLenum type, const void* indices, GLsizei 
 }
 
 const Case cases[] = {
-    {"arrays", nullptr, [](auto& gl) { begin_scene(gl); set_arrays(gl, fan); gl.DrawArrays(GL_TRIANGLE_FAN, 0, 7); }},
-    {"arrays_not_from_0", nullptr, [](auto& gl) { begin_scene(gl); set_arrays(gl, fan); gl.DrawArrays(GL_TRIANGLES, 3, 3); }},
+    {"arrays", nullptr,
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.DrawArrays(GL_TRIANGLE_FAN, 0, 7);
+     }},
+    {"arrays_not_from_0", nullptr,
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.DrawArrays(GL_TRIANGLES, 3, 3);
+     }},
     {"set_before_the_frame", [](auto& gl) { set_arrays(gl, fan); },
-     [](auto& gl) { begin_scene(gl); gl.DrawArrays(GL_TRIANGLE_FAN, 0, 7); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.DrawArrays(GL_TRIANGLE_FAN, 0, 7);
+     }},
     {"lit", nullptr,
      [](auto& gl) {
          begin_scene(gl);
@@ -69,11 +84,23 @@ const Case cases[] = {
          gl.DrawArrays(GL_TRIANGLE_FAN, 0, 7);
      }},
     {"elements_ubyte", nullptr,
-     [](auto& gl) { begin_scene(gl); set_arrays(gl, fan); gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_BYTE, indices8); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_BYTE, indices8);
+     }},
     {"elements_ushort", nullptr,
-     [](auto& gl) { begin_scene(gl); set_arrays(gl, fan); gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, indices16); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, indices16);
+     }},
     {"elements_uint", nullptr,
-     [](auto& gl) { begin_scene(gl); set_arrays(gl, fan); gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_INT, indices32); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_INT, indices32);
+     }},
     {"range_elements", nullptr,
      [](auto& gl) {
          begin_scene(gl);
@@ -91,7 +118,7 @@ const Case cases[] = {
     {"multi_elements", nullptr,
      [](auto& gl) {
          const GLsizei count[] = {3, 0, 3};
-         const void* where[] = {indices32, nullptr, indices32 + 6};
+         const void* where[] = {indices32, indices32, indices32 + 6};
          begin_scene(gl);
          set_arrays(gl, fan);
          gl.MultiDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, where, 3);
@@ -126,7 +153,10 @@ const Case cases[] = {
          restart_strip(gl, GL_UNSIGNED_SHORT, n, 13, 0xFFFF);
      }},
     {"restart_index_in_range", nullptr,
-     [](auto& gl) { const GLubyte n[] = {7, 0, 1, 2, 7, 0, 3, 4}; restart_strip(gl, GL_UNSIGNED_BYTE, n, 8, 7); }},
+     [](auto& gl) {
+         const GLubyte n[] = {7, 0, 1, 2, 7, 0, 3, 4};
+         restart_strip(gl, GL_UNSIGNED_BYTE, n, 8, 7);
+     }},
     {"restart_fixed_index", nullptr,
      [](auto& gl) {
          const GLuint n[] = {0, 1, 2, 0xFFFFFFFF, 0, 3, 4};
@@ -175,7 +205,8 @@ const Case cases[] = {
      }},
     {"interleaved_arrays", nullptr,
      [](auto& gl) {
-         const GLfloat data[][8] = {{0, 0, 0, 0, 1, -1, -1, 0}, {1, 0, 0, 1, 1, 1, -1, 0.5f}, {1, 1, 0, 0, 1, 0, 1, 0}};
+         const GLfloat data[][8] = {
+             {0, 0, 0, 0, 1, -1, -1, 0}, {1, 0, 0, 1, 1, 1, -1, 0.5f}, {1, 1, 0, 0, 1, 0, 1, 0}};
          begin_scene(gl);
          gl.Enable(GL_LIGHTING);
          gl.InterleavedArrays(GL_T2F_N3F_V3F, 0, data);
@@ -227,8 +258,9 @@ const Case cases[] = {
      [](auto& gl) {
          const GLfloat positions[] = {-1, -1, 1, -1, 0, 1}, coordinates[] = {0, 0, 4, 0, 0, 4};
          GLuint names[2];
-         const GLubyte images[2][16] = {{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255},
-                                        {90, 90, 90, 255, 200, 200, 200, 255, 255, 255, 255, 255, 128, 0, 128, 255}};
+         const GLubyte images[2][16] = {
+             {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255},
+             {90, 90, 90, 255, 200, 200, 200, 255, 255, 255, 255, 255, 128, 0, 128, 255}};
          gl.GenTextures(2, names);
          begin_scene(gl);
          for (int i = 0; i < 2; ++i) {
@@ -247,24 +279,38 @@ const Case cases[] = {
          gl.DrawArrays(GL_TRIANGLES, 0, 3);
      }},
     {"buffers", make_fan_buffers,
-     [](auto& gl) { begin_scene(gl); gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, nullptr); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, nullptr);
+     }},
     {"buffers_compiled_into_a_list",
      [](auto& gl) {
          make_fan_buffers(gl);
-         gl.NewList(1, GL_COMPILE), gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, nullptr), gl.EndList();
+         gl.NewList(1, GL_COMPILE), gl.DrawElements(GL_TRIANGLES, 9, GL_UNSIGNED_SHORT, nullptr),
+             gl.EndList();
          gl.BufferData(GL_ARRAY_BUFFER, 16, nullptr, GL_STATIC_DRAW);
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+     }},
     {"element_buffer_with_client_arrays",
-     [](auto& gl) { make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, indices32, sizeof indices32); set_arrays(gl, fan); },
-     [](auto& gl) { begin_scene(gl); gl.DrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, at(nullptr, 12)); }},
+     [](auto& gl) {
+         make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, indices32, sizeof indices32);
+         set_arrays(gl, fan);
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.DrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, at(nullptr, 12));
+     }},
     {"buffer_changed_in_the_frame", make_fan_buffers,
      [](auto& gl) {
          begin_scene(gl);
          gl.DrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr);
          const GLfloat moved[] = {-1, -1, 0};
          for (int i = 0; i < 6; ++i) {
-             gl.BufferSubData(GL_ARRAY_BUFFER, GLintptr(sizeof(Vertex) * (3 + i % 2) + offsetof(Vertex, position)), 12, moved);
+             gl.BufferSubData(GL_ARRAY_BUFFER,
+                              GLintptr(sizeof(Vertex) * (3 + i % 2) + offsetof(Vertex, position)), 12, moved);
              gl.DrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, at(nullptr, 6));
          }
      }},
@@ -288,7 +334,10 @@ const Case cases[] = {
          gl.DrawArrays(GL_TRIANGLES, 0, 3);
      }},
     {"buffer_mapped_before_the_frame",
-     [](auto& gl) { make_fan_buffers(gl); gl.MapBuffer(GL_ARRAY_BUFFER, GL_WRITE_ONLY); },
+     [](auto& gl) {
+         make_fan_buffers(gl);
+         gl.MapBuffer(GL_ARRAY_BUFFER, GL_WRITE_ONLY);
+     },
      [](auto& gl) {
          begin_scene(gl);
          void* data = nullptr;
@@ -351,7 +400,8 @@ TEST_P(ArrayCase, replays_as_drawn) {
     Rig rig;
     expect_same_image(rig, GetParam());
 }
-INSTANTIATE_TEST_SUITE_P(Arrays, ArrayCase, testing::ValuesIn(cases), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Arrays, ArrayCase, testing::ValuesIn(cases),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(Arrays, only_the_range_is_copied) {
     Rig rig;
@@ -404,7 +454,10 @@ TEST(Arrays, draws_under_a_program_are_counted_and_left_out) {
     rig.begin();
     begin_scene(gl);
     triangle(gl);
-    const Picture without = [&] { gl.Finish(); return rig.direct(); }();
+    const Picture without = [&] {
+        gl.Finish();
+        return rig.direct();
+    }();
     gl.UseProgram(program);
     set_arrays(gl, fan);
     triangle(gl, 1, 1);

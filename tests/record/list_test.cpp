@@ -23,8 +23,16 @@ void make_row(const GlTable& gl, GLuint first) {
 const GLfloat red[] = {1, 0, 0, 1}, green[] = {0.1f, 0.9f, 0.2f, 1};
 
 const Case cases[] = {
-    {"compile", [](auto& gl) { gl.NewList(1, GL_COMPILE); triangle(gl); gl.EndList(); },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); }},
+    {"compile",
+     [](auto& gl) {
+         gl.NewList(1, GL_COMPILE);
+         triangle(gl);
+         gl.EndList();
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+     }},
     {"compiled_in_the_frame", nullptr,
      [](auto& gl) {
          begin_scene(gl);
@@ -44,7 +52,11 @@ const Case cases[] = {
          gl.CallList(1);
      }},
     {"called_while_compiled_and_executed",
-     [](auto& gl) { gl.NewList(2, GL_COMPILE); triangle(gl, 0.5f); gl.EndList(); },
+     [](auto& gl) {
+         gl.NewList(2, GL_COMPILE);
+         triangle(gl, 0.5f);
+         gl.EndList();
+     },
      [](auto& gl) {
          begin_scene(gl);
          gl.NewList(1, GL_COMPILE_AND_EXECUTE);
@@ -67,13 +79,19 @@ const Case cases[] = {
          gl.EndList();
          gl.NewList(3, GL_COMPILE), gl.Scalef(0.9f, 0.8f, 1), gl.CallList(2), gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(3); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(3);
+     }},
     {"inner_list_defined_later",
      [](auto& gl) {
          gl.NewList(1, GL_COMPILE), gl.CallList(2), gl.EndList();
          gl.NewList(2, GL_COMPILE), triangle(gl), gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+     }},
     {"redefined_in_the_frame",
      [](auto& gl) {
          gl.NewList(1, GL_COMPILE), triangle(gl, -1), gl.EndList();
@@ -85,8 +103,7 @@ const Case cases[] = {
          gl.NewList(1, GL_COMPILE), triangle(gl, 1, 0, 0, 0.5f), gl.EndList();
          gl.CallList(2);
      }},
-    {"deleted_in_the_frame",
-     [](auto& gl) { gl.NewList(1, GL_COMPILE), triangle(gl), gl.EndList(); },
+    {"deleted_in_the_frame", [](auto& gl) { gl.NewList(1, GL_COMPILE), triangle(gl), gl.EndList(); },
      [](auto& gl) {
          begin_scene(gl);
          gl.CallList(1);
@@ -94,12 +111,36 @@ const Case cases[] = {
          gl.Translatef(1, 0, 1);
          gl.CallList(1);
      }},
-    {"deleted_while_calling_itself_late",
+    // Rectangles, since Mesa 22.3 overflows its stack at the end of some lists that have vertices and call
+    // themselves.
+    {"calls_itself",
      [](auto& gl) {
-         gl.NewList(7, GL_COMPILE), triangle(gl, 0, 0, 0, 0.3f), gl.Translatef(0.05f, 0.02f, -0.1f), gl.CallList(7),
-             gl.EndList();
+         gl.NewList(7, GL_COMPILE);
+         gl.Rectf(-1.5f, -1.5f, -1.2f, -1.3f);
+         gl.Translatef(0.04f, 0.03f, 0.01f);
+         gl.CallList(7);
+         gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(7); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(7);
+         gl.Color3f(1, 0, 0), gl.Rectf(-1.5f, -1.5f, -1, -1.3f);
+     }},
+    {"nested_deeper_than_gl_goes",
+     [](auto& gl) {
+         for (GLuint i = 80; i > 0; --i) {
+             gl.NewList(i, GL_COMPILE);
+             triangle(gl, -1.5f, -1.5f, 0, 0.2f);
+             gl.Translatef(0.04f, 0.03f, 0.01f);
+             gl.CallList(i + 1);
+             gl.EndList();
+         }
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+         triangle(gl, -1.5f, -1, 0, 0.1f);
+     }},
     {"materials_and_lights_inside",
      [](auto& gl) {
          gl.NewList(1, GL_COMPILE);
@@ -111,10 +152,20 @@ const Case cases[] = {
          gl.Disable(GL_LIGHTING);
          gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); triangle(gl, 1, 1, 0, 0.4f); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+         triangle(gl, 1, 1, 0, 0.4f);
+     }},
     {"state_left_by_a_list",
-     [](auto& gl) { gl.NewList(1, GL_COMPILE), gl.Color3f(1, 1, 0), gl.Translatef(0.5f, 0, 0), gl.EndList(); },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); gl.Rectf(-1, -1, 0.5f, 0.5f); }},
+     [](auto& gl) {
+         gl.NewList(1, GL_COMPILE), gl.Color3f(1, 1, 0), gl.Translatef(0.5f, 0, 0), gl.EndList();
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+         gl.Rectf(-1, -1, 0.5f, 0.5f);
+     }},
     {"attributes_pushed_inside",
      [](auto& gl) {
          gl.NewList(1, GL_COMPILE);
@@ -138,36 +189,79 @@ const Case cases[] = {
          make_row(gl, 100);
          gl.NewList(1, GL_COMPILE), gl.ListBase(100), gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.CallList(1); gl.CallLists(2, GL_UNSIGNED_BYTE, "\1\3"); }},
-    {"list_base_at_frame_start", [](auto& gl) { make_row(gl, 100); gl.ListBase(100); },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(1);
+         gl.CallLists(2, GL_UNSIGNED_BYTE, "\1\3");
+     }},
+    {"list_base_at_frame_start",
+     [](auto& gl) {
+         make_row(gl, 100);
+         gl.ListBase(100);
+     },
      [](auto& gl) { call_bytes(gl, GL_UNSIGNED_BYTE, "\1\2\3\4", 4); }},
     {"call_lists_byte", [](auto& gl) { make_row(gl, 98), gl.ListBase(100); },
-     [](auto& gl) { const GLbyte n[] = {-1, 0, 1, 2}; call_bytes(gl, GL_BYTE, n, 4); }},
+     [](auto& gl) {
+         const GLbyte n[] = {-1, 0, 1, 2};
+         call_bytes(gl, GL_BYTE, n, 4);
+     }},
     {"call_lists_short", [](auto& gl) { make_row(gl, 1098), gl.ListBase(1100); },
-     [](auto& gl) { const GLshort n[] = {-1, 0, 1, 2}; call_bytes(gl, GL_SHORT, n, 4); }},
+     [](auto& gl) {
+         const GLshort n[] = {-1, 0, 1, 2};
+         call_bytes(gl, GL_SHORT, n, 4);
+     }},
     {"call_lists_ushort", [](auto& gl) { make_row(gl, 60000); },
-     [](auto& gl) { const GLushort n[] = {60001, 60002, 60003}; call_bytes(gl, GL_UNSIGNED_SHORT, n, 3); }},
+     [](auto& gl) {
+         const GLushort n[] = {60001, 60002, 60003};
+         call_bytes(gl, GL_UNSIGNED_SHORT, n, 3);
+     }},
     {"call_lists_int", [](auto& gl) { make_row(gl, 98), gl.ListBase(100); },
-     [](auto& gl) { const GLint n[] = {-1, 0, 1, 2}; call_bytes(gl, GL_INT, n, 4); }},
+     [](auto& gl) {
+         const GLint n[] = {-1, 0, 1, 2};
+         call_bytes(gl, GL_INT, n, 4);
+     }},
     {"call_lists_uint", [](auto& gl) { make_row(gl, 100000); },
-     [](auto& gl) { const GLuint n[] = {100001, 100002, 100003}; call_bytes(gl, GL_UNSIGNED_INT, n, 3); }},
+     [](auto& gl) {
+         const GLuint n[] = {100001, 100002, 100003};
+         call_bytes(gl, GL_UNSIGNED_INT, n, 3);
+     }},
     {"call_lists_float", [](auto& gl) { make_row(gl, 98), gl.ListBase(100); },
-     [](auto& gl) { const GLfloat n[] = {-1, 0.9f, 1, 2}; call_bytes(gl, GL_FLOAT, n, 4); }},
+     [](auto& gl) {
+         const GLfloat n[] = {-1, 0.9f, 1, 2};
+         call_bytes(gl, GL_FLOAT, n, 4);
+     }},
     {"call_lists_2_bytes", [](auto& gl) { make_row(gl, 0x1FE); },
-     [](auto& gl) { const GLubyte n[] = {1, 0xFF, 2, 0, 2, 1}; call_bytes(gl, GL_2_BYTES, n, 3); }},
+     [](auto& gl) {
+         const GLubyte n[] = {1, 0xFF, 2, 0, 2, 1};
+         call_bytes(gl, GL_2_BYTES, n, 3);
+     }},
     {"call_lists_3_bytes", [](auto& gl) { make_row(gl, 0x1FE); },
-     [](auto& gl) { const GLubyte n[] = {0, 1, 0xFF, 0, 2, 0}; call_bytes(gl, GL_3_BYTES, n, 2); }},
+     [](auto& gl) {
+         const GLubyte n[] = {0, 1, 0xFF, 0, 2, 0};
+         call_bytes(gl, GL_3_BYTES, n, 2);
+     }},
     {"call_lists_4_bytes", [](auto& gl) { make_row(gl, 0x1FE); },
-     [](auto& gl) { const GLubyte n[] = {0, 0, 1, 0xFF, 0, 0, 2, 0}; call_bytes(gl, GL_4_BYTES, n, 2); }},
+     [](auto& gl) {
+         const GLubyte n[] = {0, 0, 1, 0xFF, 0, 0, 2, 0};
+         call_bytes(gl, GL_4_BYTES, n, 2);
+     }},
     {"begin_outside_vertices_inside",
      [](auto& gl) {
          gl.NewList(1, GL_COMPILE);
          gl.Color3f(1, 0, 1), gl.Vertex2f(-1, -1), gl.Vertex2f(1, -1), gl.Vertex2f(0, 1);
          gl.EndList();
      },
-     [](auto& gl) { begin_scene(gl); gl.Begin(GL_TRIANGLES); gl.CallList(1); gl.End(); }},
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.Begin(GL_TRIANGLES);
+         gl.CallList(1);
+         gl.End();
+     }},
     {"begin_inside_end_outside",
-     [](auto& gl) { gl.NewList(1, GL_COMPILE), gl.Begin(GL_TRIANGLES), gl.Color3f(1, 1, 1), gl.Vertex2f(-1, -1), gl.EndList(); },
+     [](auto& gl) {
+         gl.NewList(1, GL_COMPILE), gl.Begin(GL_TRIANGLES), gl.Color3f(1, 1, 1), gl.Vertex2f(-1, -1),
+             gl.EndList();
+     },
      [](auto& gl) {
          begin_scene(gl);
          gl.CallList(1);
@@ -227,7 +321,8 @@ TEST_P(ListCase, replays_as_drawn) {
     Rig rig;
     expect_same_image(rig, GetParam());
 }
-INSTANTIATE_TEST_SUITE_P(Lists, ListCase, testing::ValuesIn(cases), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Lists, ListCase, testing::ValuesIn(cases),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(Lists, defined_in_one_context_called_in_another) {
     Rig rig;

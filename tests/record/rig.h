@@ -98,7 +98,8 @@ inline void expect_same_image(Rig& rig, const Case& test_case) {
         const Picture replayed = rig.replayed();
         EXPECT_TRUE(replayed == direct) << "replay " << i;
     }
-    for (const auto& [what, times] : record::not_understood(*rig.frame)) ADD_FAILURE() << what << " " << times;
+    for (const auto& [what, times] : record::not_understood(*rig.frame))
+        ADD_FAILURE() << what << " " << times;
     rig.program.make_current();
     EXPECT_EQ(rig.program.gl().GetError(), GLenum(GL_NO_ERROR));
 }
