@@ -35,6 +35,15 @@ TEST(Gaps, ANarrowSlitIsClosedAndAWideOneStaysOpen) {
     EXPECT_NEAR(depth_of_slit(cast(*slit(1.8), n, none).mesh), 0.8, sample_size(n));
 }
 
+TEST(Gaps, ASlitIntoAThinShellIsNoOutside) {
+    const auto shell = subtract(box({0, 0, 0}, {0.8, 0.8, 0.8}), box({0, 0, 0}, {0.798, 0.798, 0.798}));
+    const auto body = subtract(shell, box({0.101, 0, 0.8}, {2.5 * sample_size(n), 0.5, 0.1}));
+    EXPECT_LT(depth_of_slit(cast(*body, n).mesh), 2 * sample_size(n));
+    ReconstructOptions none;
+    none.close_gaps = 0;
+    EXPECT_GT(depth_of_slit(cast(*body, n, none).mesh), 1);
+}
+
 TEST(Gaps, ClosingLeavesWholeBodiesAlone) {
     ReconstructOptions none;
     none.close_gaps = 0;

@@ -74,6 +74,57 @@ std::vector<float> close(const std::vector<float>& depth, int n, double radius) 
     return closed;
 }
 
+/// The nearest pixel along a line that is no sheet and lies nearer than `level`.
+int steps_to_wall(const Image& depth, const std::vector<float>& far, int u, int v, int du, int dv,
+                  float level, int most) {
+    for (int k = 1; k <= most; ++k) {
+        if (!depth.inside(u + k * du, v + k * dv)) break;
+        const std::size_t q = std::size_t(v + k * dv) * depth.n + u + k * du;
+        if (depth.at[q] < level && far[q] - depth.at[q] > 1) return k;
+    }
+    return 0;
+}
+
+/// Depth of the walls of a slit, `most` pixels wide and `steep` times as deep, through which the ray of the
+/// pixel looks into a shell; or the pixel's own.
+float level_over_hollow(const Image& depth, const std::vector<float>& far, int u, int v, int most) {
+    constexpr int lines[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    constexpr float steep = 6;
+    const std::size_t p = std::size_t(v) * depth.n + u;
+    float best = depth.at[p];
+    int narrowest = most + 1;
+    for (const auto& line : lines) {
+        const float level = depth.at[p] - slit_depth;
+        const int ahead = steps_to_wall(depth, far, u, v, line[0], line[1], level, most);
+        const int behind =
+            ahead ? steps_to_wall(depth, far, u, v, -line[0], -line[1], level, most - ahead + 1) : 0;
+        if (!ahead || !behind || ahead + behind > narrowest) continue;
+        const auto at = [&](int k) {
+            return depth.at[std::size_t(v + k * line[1]) * depth.n + u + k * line[0]];
+        };
+        const float wall = std::max(at(ahead), at(-behind));
+        if (depth.at[p] - wall < steep * float(ahead + behind - 1)) continue;
+        narrowest = ahead + behind;
+        best = wall;
+    }
+    return best;
+}
+
+/// A ray that comes through a slit and ends on a surface of no thickness looks into a shell, as most GL
+/// models are. What it sees in there is no outside, so the slit is closed up to some times the width of other
+/// gaps.
+void close_over_hollows(std::vector<float>& closed, const std::vector<float>& depth,
+                        const std::vector<float>& far, int n, double radius) {
+    const Image image{depth, n};
+    const int most = int(2 * radius * std::max(4.0, n / 64.0)) + 1;
+    for (int v = 0; v < n; ++v)
+        for (int u = 0; u < n; ++u) {
+            const std::size_t p = std::size_t(v) * n + u;
+            if (depth[p] == no_depth || far[p] - depth[p] > 0.5f || closed[p] < depth[p]) continue;
+            closed[p] = level_over_hollow(image, far, u, v, most);
+        }
+}
+
 void negate(std::vector<float>& depth) {
     for (float& d : depth) d = -d;
 }
@@ -84,9 +135,13 @@ ClosedDepths close_depths(const AxisRays& rays, int n, double radius) {
     ClosedDepths out{rays.depth[0], rays.depth[1]};
     if (radius <= 0) return out;
     const double disc = radius + 0.5; // of pixels, which reach half a sample further: slits up to 2r + 1 wide
+    std::vector<float> away = rays.depth[1], far = rays.depth[0]; // the back seen from behind
+    negate(away);
+    negate(far);
     out.front = close(rays.depth[0], n, disc);
-    negate(out.back);
-    out.back = close(out.back, n, disc);
+    out.back = close(away, n, disc);
+    close_over_hollows(out.front, rays.depth[0], rays.depth[1], n, radius);
+    close_over_hollows(out.back, away, far, n, radius);
     negate(out.back);
     for (std::size_t p = 0; p < out.front.size(); ++p)
         if (out.front[p] == no_depth || out.back[p] == -no_depth || out.front[p] > out.back[p]) {

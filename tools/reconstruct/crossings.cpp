@@ -125,13 +125,13 @@ std::optional<Estimate> carved_across(const Edge& e, int across) {
 
 /// E was left by its own rays' closed depths: a closed gap. The planes of the pixels around it go on across
 /// it.
-std::optional<Estimate> bridged(const Edge& e) {
+std::optional<Estimate> bridged(const Edge& e, int reach) {
     const AxisRays& rays = e.rays.axis[e.axis];
     const ImageAxes image = image_axes(static_cast<Axis>(e.axis));
     const int side = e.side();
     Estimate sum{0, glm::vec3(0), 0};
-    for (int dv = -2; dv <= 2; ++dv)
-        for (int du = -2; du <= 2; ++du) {
+    for (int dv = -reach; dv <= reach; ++dv)
+        for (int du = -reach; du <= reach; ++du) {
             std::array<int, 3> at = e.filled;
             at[image.u] += du;
             at[image.v] += dv;
@@ -150,6 +150,12 @@ std::optional<Estimate> bridged(const Edge& e) {
         }
     if (sum.weight == 0) return std::nullopt;
     return Estimate{sum.s / sum.weight, glm::normalize(sum.normal)};
+}
+
+std::optional<Estimate> bridged(const Edge& e) {
+    for (int reach : {2, 4, 8})
+        if (const auto found = bridged(e, reach)) return found;
+    return std::nullopt;
 }
 
 Estimate estimate(const Edge& e) {
