@@ -65,7 +65,7 @@ GlProc ours_instead(const char* name, GlProc real, const void* caller) {
 }
 
 Lookup look_up_ours(void* handle, const char* name, const void* caller) {
-    if (handle == RTLD_NEXT || !name) return {false, nullptr};
+    if (!name) return {false, nullptr};
     const GlProc ours = find_ours(name);
     if (!ours || in_gl_library(caller)) return {false, nullptr};
     const void* found = real_dlsym()(handle, name);

@@ -18,7 +18,7 @@ struct Lookup {
     bool decided; ///< false: the real dlsym must answer, called as if by the program
     void* address;
 };
-/// For dlsym: our function, if the program would have found the real one.
+/// For dlsym with any handle but RTLD_NEXT: our function, if the program would have found the real one.
 Lookup look_up_ours(void* handle, const char* name, const void* caller);
 
 /// For dlopen: RTLD_DEEPBIND is dropped for a library that links GL, because its calls would go past us.

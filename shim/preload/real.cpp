@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <atomic>
 #include <cstring>
 
 #include "shim/preload/session.h"
@@ -20,22 +19,6 @@ namespace {
 /// In the order in which they are asked. glvnd's libGL and libOpenGL have the same functions.
 constexpr const char* gl_libraries[] = {"libGL.so.1", "libOpenGL.so.0", "libGLX.so.0", "libEGL.so.1",
                                         "libGLESv2.so.2"};
-
-/// dlsym by version: dlvsym is not interposed by anybody, and no private name of the C library is used.
-void* find_dl(const char* name) {
-    for (const char* version : {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17"}) // 2.17: aarch64
-        if (void* function = dlvsym(RTLD_NEXT, name, version)) return function;
-    return nullptr;
-}
-
-template <class Function> Function cached_dl(std::atomic<Function>& cache, const char* name) {
-    Function function = cache.load(std::memory_order_relaxed);
-    if (!function) {
-        function = reinterpret_cast<Function>(find_dl(name));
-        cache.store(function, std::memory_order_relaxed);
-    }
-    return function;
-}
 
 void* find_in_loaded_libraries(const char* name) {
     for (const char* library : gl_libraries) {
@@ -80,16 +63,6 @@ GlProc& slot(GlTable& table, GlCall call) {
 }
 
 } // namespace
-
-DlsymFunction real_dlsym() {
-    static constinit std::atomic<DlsymFunction> cache{nullptr};
-    return cached_dl(cache, "dlsym");
-}
-
-DlopenFunction real_dlopen() {
-    static constinit std::atomic<DlopenFunction> cache{nullptr};
-    return cached_dl(cache, "dlopen");
-}
 
 bool is_own(const void* code) { return code >= &__ehdr_start && code < &_end; }
 

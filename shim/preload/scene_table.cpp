@@ -170,8 +170,9 @@ void APIENTRY push_matrix() {
     X(EvalCoord1d)                                                                                           \
     X(EvalCoord1f)                                                                                           \
     X(EvalCoord1dv)                                                                                          \
-    X(EvalCoord1fv) X(EvalCoord2d) X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1)              \
-        X(EvalPoint2) X(ArrayElement) X(ArrayElementEXT)
+    X(EvalCoord1fv)                                                                                          \
+    X(EvalCoord2d) X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2)                \
+        X(ArrayElement) X(ArrayElementEXT)
 
 #define GLCAST_SCALARS_AND_ARRAYS(X, NAME, SUFFIX)                                                           \
     X(NAME##d##SUFFIX)                                                                                       \
@@ -189,8 +190,9 @@ void APIENTRY push_matrix() {
     X(VertexAttrib4bv)                                                                                       \
     X(VertexAttrib4iv)                                                                                       \
     X(VertexAttrib4ubv)                                                                                      \
-    X(VertexAttrib4uiv) X(VertexAttrib4usv) X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv)      \
-        X(VertexAttrib4Nub) X(VertexAttrib4Nubv) X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
+    X(VertexAttrib4uiv)                                                                                      \
+    X(VertexAttrib4usv) X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub)      \
+        X(VertexAttrib4Nubv) X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
 
 #define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)
 #define GLCAST_PIXELS(X) X(Bitmap) X(DrawPixels) X(CopyPixels)
