@@ -51,7 +51,8 @@ Cast cast_program(const RealProgram& program) {
     for (const fs::path& file : {capture, mesh, plain, picture}) {
         fs::remove(file);
     }
-    Cast cast{.name = program.name};
+    Cast cast;
+    cast.name = program.name;
     auto environment = program.environment;
     environment.emplace_back("PATH", std::string("/usr/bin:") + std::getenv("PATH"));
     if (!step(capture_command(program, capture), capture_limit_seconds, cast.error, nullptr, environment) ||

@@ -87,7 +87,7 @@ std::vector<Level> read_off(std::string_view bytes) {
 bool write_off(OutputFile& file, const Mesh& mesh) {
     Gather out(file);
     const bool colours = !mesh.colours.empty();
-    out << (colours ? "COFF\n" : "OFF\n") << "# glcast " GLCAST_VERSION "\n";
+    out << (colours ? "COFF\n" : "OFF\n"); // no comment line: OpenMesh takes one for the counts
     out << mesh.positions.size() << ' ' << mesh.triangles.size() << " 0\n";
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::dvec3& p = mesh.positions[v];
