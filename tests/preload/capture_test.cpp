@@ -57,8 +57,7 @@ TEST_P(Shape, is_the_same_in_every_way_of_drawing_and_the_program_sees_nothing) 
         ASSERT_NO_FATAL_FAILURE(expect_complete(cast));
         expect_unnoticed(plain, cast);
         if (!reference) reference = cast.capture;
-        // Patches are evaluated by GL itself, on its own grid.
-        if (way != Way::evaluators) expect_same(*reference, *cast.capture);
+        expect_same(*reference, *cast.capture);
     }
 }
 INSTANTIATE_TEST_SUITE_P(Fixtures, Shape, testing::ValuesIn(fixtures::shape_names()),

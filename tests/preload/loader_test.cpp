@@ -13,6 +13,8 @@ struct Road {
     std::vector<std::string> arguments;
 };
 
+void PrintTo(const Road& road, std::ostream* out) { *out << road.name; }
+
 const Road roads[] = {
     {"glx_linked", {FIXTURE_GLX, "--loader", "linked"}},
     {"glx_getproc", {FIXTURE_GLX, "--loader", "getproc"}},
