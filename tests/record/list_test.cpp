@@ -130,7 +130,7 @@ const Case cases[] = {
      [](auto& gl) {
          for (GLuint i = 80; i > 0; --i) {
              gl.NewList(i, GL_COMPILE);
-             triangle(gl, -1.5f, -1.5f, 0, 0.2f);
+             gl.Rectf(-1.5f, -1.5f, -1.3f, -1.3f);
              gl.Translatef(0.04f, 0.03f, 0.01f);
              gl.CallList(i + 1);
              gl.EndList();

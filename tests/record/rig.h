@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -17,6 +18,21 @@ struct Picture {
     std::vector<GLuint> depth;
     bool operator==(const Picture&) const = default;
 };
+
+/// How two pictures differ: pixels whose colour differs by more than `colour` of 255, or depth by more than
+/// `depth` of 2^32. Mesa turns the quads and strips of a list into triangles of its own, and so interpolates
+/// the last bits of depth differently.
+inline std::size_t different_pixels(const Picture& a, const Picture& b, int colour, GLuint depth) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < a.depth.size(); ++i) {
+        bool differs = (a.depth[i] > b.depth[i] ? a.depth[i] - b.depth[i] : b.depth[i] - a.depth[i]) > depth;
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+            differs |= std::abs(a.colour[k] - b.colour[k]) > colour;
+        n += differs;
+    }
+    return n;
+}
+inline constexpr GLuint last_bits_of_depth = 4 * 256; // of 24
 
 class Rig {
   public:

@@ -18,6 +18,8 @@ std::vector<Drawing> drawings() {
     return all;
 }
 
+void PrintTo(const Drawing& drawing, std::ostream* out) { *out << drawing.shape; }
+
 class Shape : public testing::TestWithParam<Drawing> {};
 TEST_P(Shape, replays_as_drawn) {
     Rig rig;
@@ -27,7 +29,7 @@ TEST_P(Shape, replays_as_drawn) {
     rig.end();
     const Picture direct = rig.direct();
     EXPECT_GT(Rig::covered(direct), 100u);
-    EXPECT_TRUE(rig.replayed() == direct);
+    EXPECT_EQ(different_pixels(rig.replayed(), direct, 0, last_bits_of_depth), 0u);
     EXPECT_TRUE(record::not_understood(*rig.frame).empty());
     rig.program.make_current();
     EXPECT_EQ(rig.gl().GetError(), GLenum(GL_NO_ERROR));
