@@ -37,6 +37,8 @@ struct Session {
 };
 
 std::atomic<Session*> existing{nullptr};
+/// Set when `waiting` ends, and read by every recorded call: threads then drop what they record.
+constinit std::atomic<bool> stopped{false};
 
 /// Never destroyed: other threads may draw while the process ends.
 Session& session() {
@@ -61,6 +63,11 @@ struct ThreadState {
 };
 constinit thread_local ThreadState thread_state{nullptr, 0, false};
 
+void stop_waiting(Session& s) {
+    s.waiting = false;
+    stopped = true;
+}
+
 /// The one place where exceptions end: the shim gives up, the program goes on.
 template <class Work> void guarded(Work&& work) noexcept {
     try {
@@ -68,11 +75,11 @@ template <class Work> void guarded(Work&& work) noexcept {
     } catch (const std::exception& error) {
         say_once("gave up: %s", error.what());
         if (Session* s = existing) {
-            s->waiting = false;
+            stop_waiting(*s);
             if (!s->settled.exchange(true)) tell("failed", error.what());
         }
     } catch (...) {
-        if (Session* s = existing) s->waiting = false;
+        if (Session* s = existing) stop_waiting(*s);
     }
 }
 
@@ -133,7 +140,7 @@ void end_program() {
 }
 
 void finish(Session& s, NativeContext& context, const CastResult& result) {
-    s.waiting = false;
+    stop_waiting(s);
     s.settled = true;
     if (context.sibling) context.system->destroy(context.display, context.sibling);
     context.sibling = nullptr;
@@ -203,6 +210,8 @@ const GlTable& recording_table() {
         record::set_current(nullptr, real_table());
         thread_state.known = true;
     }
+    if (stopped.load(std::memory_order_relaxed) && thread_state.context) [[unlikely]]
+        stop_recording(*thread_state.context);
     return record::table();
 }
 
