@@ -85,6 +85,11 @@ void follow_list(Context& context, GLuint name) {
     if (context.executes()) context.in_begin = list->begin_state == Stream::BeginState::inside;
 }
 
+void note_popped(Context& context) {
+    note_popped_matrix(context);
+    note_popped_attributes(context);
+}
+
 void write_numbers(Stream& stream, const std::vector<GLuint>& numbers) {
     Writer writer(stream.append(Op(GlCall::CallLists), 4 + 4 * numbers.size()));
     writer.put(std::uint32_t(numbers.size())).put_bytes(numbers.data(), 4 * numbers.size());
@@ -157,6 +162,7 @@ void APIENTRY EndList() {
         context->give_up_frame("out of memory");
     }
     context->stop_listening();
+    if (context->recording && done->executes) note_popped(*context);
 }
 
 void APIENTRY DeleteLists(GLuint list, GLsizei range) {
@@ -186,7 +192,7 @@ void APIENTRY CallList(GLuint list) {
         follow_list(*context, list);
     }
     this_thread.real->CallList(list);
-    if (Context* context = listening_context()) note_popped_matrix(*context);
+    if (Context* context = listening_context()) note_popped(*context);
 }
 
 void APIENTRY CallLists(GLsizei n, GLenum type, const void* lists) {
@@ -207,7 +213,7 @@ void APIENTRY CallLists(GLsizei n, GLenum type, const void* lists) {
         }
     }
     this_thread.real->CallLists(n, type, lists);
-    if (Context* context = listening_context()) note_popped_matrix(*context);
+    if (Context* context = listening_context()) note_popped(*context);
 }
 
 void play_CallList(Player& player, const Packet& packet) { player.call_list(Reader(packet).get<GLuint>()); }

@@ -23,6 +23,18 @@ void note_popped_matrix(Context& context) {
     gl.GetFloatv(names.matrix, recording.frame->stacks[stack][std::size_t(depth) - 1].m);
 }
 
+bool note_popped_attributes(Context& context) {
+    // While a list is open the state cannot be read: binding textures for it would go into the list.
+    if (!context.recording || context.compilation || context.in_begin) return false;
+    Recording& recording = *context.recording;
+    if (recording.attrib_depth == 0) return false;
+    const int depth = get_int(context.real, GL_ATTRIB_STACK_DEPTH);
+    if (depth >= recording.attrib_depth) return false;
+    recording.attrib_depth = depth;
+    context.emit(false, [&](Stream& stream) { write_state(context, stream, false); });
+    return true;
+}
+
 namespace {
 
 /// Capabilities that are client state, or are dealt with where arrays are read.
@@ -139,20 +151,8 @@ void APIENTRY PopMatrix() {
 void APIENTRY PopAttrib() {
     Context* context = listening_context();
     this_thread.real->PopAttrib();
-    if (!context) return;
-    if (context->recording && !context->compilation && !context->in_begin &&
-        context->recording->attrib_depth > 0) {
-        Recording& recording = *context->recording;
-        const int depth = get_int(context->real, GL_ATTRIB_STACK_DEPTH);
-        if (depth < recording.attrib_depth) {
-            // Pushed before the frame began: what was restored is only known now, so it is read as at a
-            // frame's start.
-            recording.attrib_depth = depth;
-            context->emit(false, [&](Stream& stream) { write_state(*context, stream, false); });
-            return;
-        }
-    }
-    context->emit(true, [&](Stream& stream) { packets::PopAttrib::write(stream); });
+    if (context && !note_popped_attributes(*context))
+        context->emit(true, [&](Stream& stream) { packets::PopAttrib::write(stream); });
 }
 
 void play_PushAttrib(Player& player, const Packet& packet) {

@@ -39,4 +39,8 @@ inline StackNames stack_names(int stack) {
 /// the frame began, writes it into the frame's stacks.
 void note_popped_matrix(Context& context);
 
+/// After a call that may have popped attributes: if they were pushed before the frame began, what was
+/// restored is only known now, so the state is read as at a frame's start. Returns whether it was.
+bool note_popped_attributes(Context& context);
+
 } // namespace glcast::record

@@ -37,6 +37,8 @@ class Monkey {
             gl.Vertex3f(number(-1.5f, 1.5f), number(-1.5f, 1.5f), number(-1, 1));
         }
         gl.End();
+        // Mesa's lists forget what the vertices of an incomplete last primitive have set.
+        gl.Color3f(number(0, 1), number(0, 1), number(0, 1)), gl.Normal3f(0, 0.6f, 0.8f), gl.TexCoord2f(0, 1);
     }
     void matrix() {
         switch (below(6)) {

@@ -192,6 +192,22 @@ const Case cases[] = {
          gl.Enable(GL_COLOR_MATERIAL), gl.Normal3f(0, 0, 1);
          gl.Rectf(0, 0, 1, 1);
      }},
+    {"attributes_popped_by_a_list",
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.Color3f(1, 0, 0);
+         gl.PushAttrib(GL_CURRENT_BIT), gl.Color3f(0, 1, 0), gl.PushAttrib(GL_CURRENT_BIT),
+             gl.Color3f(0, 0, 1);
+         gl.NewList(1, GL_COMPILE), gl.PopAttrib(), gl.EndList();
+     },
+     [](auto& gl) {
+         gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+         gl.Rectf(-2, -2, -1, 2);
+         gl.CallList(1);
+         gl.Rectf(-1, -2, 0, 2);
+         gl.NewList(2, GL_COMPILE_AND_EXECUTE), gl.PopAttrib(), gl.EndList();
+         gl.Rectf(0, -2, 2, 2);
+     }},
     {"selection_in_the_frame", nullptr,
      [](auto& gl) {
          static GLuint names[64];
