@@ -35,7 +35,6 @@ bool step(const std::vector<std::string>& command, double limit, std::string& er
 std::vector<std::string> capture_command(const RealProgram& program, const fs::path& capture) {
     std::vector<std::string> command = {GLCAST_RUN, "--headless", "--quit", "-n", std::to_string(program.n),
                                         "-o",       capture};
-    command.insert(command.end(), program.options.begin(), program.options.end());
     command.push_back("--");
     command.insert(command.end(), program.command.begin(), program.command.end());
     return command;
@@ -55,8 +54,12 @@ Cast cast_program(const RealProgram& program) {
     cast.name = program.name;
     auto environment = program.environment;
     environment.emplace_back("PATH", std::string("/usr/bin:") + std::getenv("PATH"));
+    std::vector<std::string> make_mesh = {GLCAST, "mesh", capture, "-o", mesh};
+    if (!program.levels) {
+        make_mesh.insert(make_mesh.end(), {"--ratio", "1"});
+    }
     if (!step(capture_command(program, capture), capture_limit_seconds, cast.error, nullptr, environment) ||
-        !step({GLCAST, "mesh", capture, "-o", mesh}, tool_limit_seconds, cast.error) ||
+        !step(make_mesh, tool_limit_seconds, cast.error) ||
         !step({GLCAST, "mesh", capture, "-o", plain, "--ratio", "1"}, tool_limit_seconds, cast.error) ||
         !step({GLCAST, "render", mesh, "-o", picture}, tool_limit_seconds, cast.error)) {
         return cast;
@@ -78,6 +81,9 @@ Accuracy accuracy(const Cast& cast, const Mesh& truth) {
     if (step({GLCAST, "compare", "--json", original, fs::path(REAL_OUTPUT) / (cast.name + ".glb")},
              tool_limit_seconds, measured.error, &json)) {
         const auto distances = nlohmann::json::parse(json);
+        measured.sample = distances.at("sample");
+        measured.worst_from_truth = distances.at("aToB").at("samples").at("p999");
+        measured.worst_to_truth = distances.at("bToA").at("samples").at("p999");
         measured.from_truth = distances.at("aToB").at("samples").at("mean");
         measured.to_truth = distances.at("bToA").at("samples").at("mean");
     }

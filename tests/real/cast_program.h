@@ -14,7 +14,7 @@ struct RealProgram {
     std::vector<std::string> command;
     int n = 256;
     std::vector<std::pair<std::string, std::string>> environment = {};
-    std::vector<std::string> options = {}; ///< more for glcast-run
+    bool levels = true; ///< false: the full surface only
 };
 
 struct Cast {
@@ -32,7 +32,9 @@ Cast cast_program(const RealProgram& program);
 /// can see are left out.
 struct Accuracy {
     std::string error;
-    double to_truth = 0, from_truth = 0;
+    double to_truth = 0, from_truth = 0;             ///< mean
+    double worst_to_truth = 0, worst_from_truth = 0; ///< of 99.9 % of the points
+    double sample = 0;                               ///< model units
 };
 Accuracy accuracy(const Cast& cast, const Mesh& truth);
 
