@@ -27,8 +27,14 @@ class Monkey {
     unsigned below(std::size_t n) { return unsigned(random() % n); }
     float number(float from, float to) { return from + (to - from) * float(random() % 1000) / 999.f; }
 
+    /// In a list Mesa cuts quads along the other diagonal, and closes loops of lines from the other end.
+    GLenum mode() {
+        static constexpr GLenum in_lists[] = {GL_POINTS,    GL_LINES,          GL_LINE_STRIP,
+                                              GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN};
+        return compiling ? in_lists[below(std::size(in_lists))] : below(10);
+    }
     void primitive() {
-        gl.Begin(below(compiling ? 7 : 10)); // quads of a list, Mesa cuts along the other diagonal
+        gl.Begin(mode());
         for (unsigned i = 0, n = below(12); i < n; ++i) {
             if (i == 0 || below(3) == 0) gl.Color3f(number(0, 1), number(0, 1), number(0, 1));
             if (i == 0 || below(3) == 0) gl.Normal3f(number(-1, 1), number(-1, 1), number(0, 1));
@@ -141,7 +147,7 @@ class Monkey {
         if (indexed)
             gl.DrawElements(GL_TRIANGLE_STRIP, 4, GL_UNSIGNED_SHORT, indices);
         else
-            gl.DrawArrays(below(compiling ? 7 : 10), GLint(below(10)), GLsizei(below(20)));
+            gl.DrawArrays(mode(), GLint(below(10)), GLsizei(below(20)));
         gl.DisableClientState(GL_COLOR_ARRAY);
         gl.DisableClientState(GL_VERTEX_ARRAY);
         colour(); // GL leaves it undefined
