@@ -261,6 +261,7 @@ GLCAST_EXPORT void glXWaitGL() {
 GLCAST_EXPORT void glXUseXFont(Font font, int first, int count, int list) {
     if (shadows_calls()) say_once("lists made by glXUseXFont are not recorded (they hold text)");
     real().glXUseXFont(font, first, count, list);
+    if (shadows_calls()) lists_made_elsewhere(GLuint(list), count);
 }
 
 } // extern "C"

@@ -217,6 +217,13 @@ const GlTable& recording_table() {
 
 bool shadows_calls() { return session().options.armed; }
 
+void lists_made_elsewhere(GLuint first, GLsizei count) noexcept {
+    guarded([&](Session&) {
+        if (thread_state.context && thread_state.context->shadow)
+            record::note_opaque_lists(*thread_state.context->shadow, first, count);
+    });
+}
+
 void context_made(const WindowSystem& system, void* display, void* handle, void* share,
                   std::function<void*()> make_sibling) noexcept {
     if (!handle) return;

@@ -43,6 +43,8 @@ void made_current(const Binding& binding) noexcept;
 /// Around the real swap of a drawable.
 void before_swap(std::uintptr_t drawable) noexcept;
 void after_swap(std::uintptr_t drawable) noexcept;
+/// Display lists of this thread's context that were filled by other means than GL calls.
+void lists_made_elsewhere(GLuint first, GLsizei count) noexcept;
 
 /// More than 0 while a wrapper is inside a real GLX or EGL call on this thread: calls that the GL library
 /// then makes to our exported names are its own business.
