@@ -126,9 +126,10 @@ void sort_groups(Scene& scene) {
 
 } // namespace
 
+// The prologue pushes matrices of its own where the frame starts with some on the stack: none of them is the base.
 Scene analyse(const record::Frame& frame, const GlTable& gl) {
     Analysis analysis(gl);
-    record::replay(frame, gated_table(analysis));
+    record::replay(frame, gated_table(analysis), [&] { analysis.scene.base_modelview.reset(); });
     sort_groups(analysis.scene);
     return std::move(analysis.scene);
 }

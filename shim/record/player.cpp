@@ -6,11 +6,12 @@
 
 namespace glcast::record {
 
-void Player::run() {
+void Player::run(const std::function<void()>& before_calls) {
     reset_client_state();
     empty_stacks();
     play(frame.prologue); // leaves an identity modelview: it sets lights and planes in eye space
     load_stacks();
+    if (before_calls) before_calls();
     play(frame.calls);
 }
 
@@ -100,6 +101,8 @@ void Player::pop_attrib() {
     saved.pop_back();
 }
 
-void replay(const Frame& frame, const GlTable& gl) { Player(frame, gl).run(); }
+void replay(const Frame& frame, const GlTable& gl, const std::function<void()>& before_calls) {
+    Player(frame, gl).run(before_calls);
+}
 
 } // namespace glcast::record

@@ -1,5 +1,6 @@
 // Plays packets into a GlTable: the state of one replay.
 #pragma once
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -25,7 +26,7 @@ enum class ExtraOp : Op {
 class Player {
   public:
     Player(const Frame& recorded, const GlTable& table) : gl(table), frame(recorded) {}
-    void run();
+    void run(const std::function<void()>& before_calls);
     void play(const Stream& stream);
     void call_list(GLuint name);
     void set_list(GLuint name, const Stream* list) { changed_lists[name] = list; }

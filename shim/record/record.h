@@ -3,6 +3,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -60,6 +61,7 @@ void note_opaque_lists(Context& context, GLuint first, GLsizei count);
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
 /// and attribute stacks of the context are emptied first, so it can be called again and again. `gl` may be an
 /// override table.
-void replay(const Frame& frame, const GlTable& gl);
+/// `before_calls` is called between the prologue and the program's own calls.
+void replay(const Frame& frame, const GlTable& gl, const std::function<void()>& before_calls = {});
 
 } // namespace glcast::record
