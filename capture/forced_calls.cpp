@@ -36,19 +36,6 @@ bool kept_cap(GLenum cap, bool on) {
     return policy == CapPolicy::keep;
 }
 
-/// What a material call becomes in the colour pass; GL_NONE: nothing.
-GLenum mapped_material(GLenum name) {
-    switch (name) {
-    case GL_DIFFUSE:
-    case GL_AMBIENT_AND_DIFFUSE:
-        return GL_AMBIENT_AND_DIFFUSE;
-    case GL_EMISSION:
-        return GL_EMISSION;
-    default:
-        return GL_NONE;
-    }
-}
-
 bool kept_light_model(GLenum name) { return name == GL_LIGHT_MODEL_TWO_SIDE; }
 
 } // namespace

@@ -2,11 +2,8 @@
 
 namespace glcast {
 
-namespace {
-
-/// GL_NONE: this mode changes nothing that the colour pass looks at.
-GLenum mapped_colour_material(GLenum mode) {
-    switch (mode) {
+GLenum mapped_material(GLenum name) {
+    switch (name) {
     case GL_DIFFUSE:
     case GL_AMBIENT_AND_DIFFUSE:
         return GL_AMBIENT_AND_DIFFUSE;
@@ -16,6 +13,8 @@ GLenum mapped_colour_material(GLenum mode) {
         return GL_NONE;
     }
 }
+
+namespace {
 
 void set_cap(const GlTable& gl, GLenum cap, bool on) { on ? gl.Enable(cap) : gl.Disable(cap); }
 
@@ -84,7 +83,7 @@ void ForcedState::apply_alpha() const {
 
 void ForcedState::apply_colour_material() const {
     if (kind != PassKind::colour) return;
-    const GLenum mode = mapped_colour_material(program.colour_material_mode);
+    const GLenum mode = mapped_material(program.colour_material_mode);
     const bool on = program.colour_material && mode != GL_NONE;
     if (on) real.ColorMaterial(program.colour_material_face, mode);
     set_cap(real, GL_COLOR_MATERIAL, on);

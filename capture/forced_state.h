@@ -51,4 +51,8 @@ class ForcedState {
     std::vector<Saved> stack;
 };
 
+/// What a material parameter becomes in the colour pass, set by glMaterial or tracked by glColorMaterial;
+/// GL_NONE: nothing that the pass looks at.
+GLenum mapped_material(GLenum name);
+
 } // namespace glcast

@@ -25,7 +25,7 @@ struct ReconstructReport {
     std::size_t thin_samples = 0;           ///< filled only because a sheet passes by
     std::size_t crossings = 0;              ///< lattice edges that change sign
     std::size_t unsupported_crossings = 0;  ///< of these, how many no ray saw
-    std::size_t vertices_without_pixel = 0; ///< colour and normal taken from a neighbour on the surface
+    std::size_t vertices_without_pixel = 0; ///< colour of a neighbour on the surface, normal of the surface itself
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };
 
