@@ -1,11 +1,14 @@
 #include "shim/preload/cast.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <glm/matrix.hpp>
 #include <stdexcept>
 
 #include "capture/capture_file.h"
+#include "shim/preload/output_name.h"
 #include "shim/preload/real.h"
 #include "shim/preload/scene.h"
 #include "shim/preload/session.h"
@@ -143,7 +146,8 @@ CastResult cast_in_sibling(const record::Frame& frame, long number, const Option
     if (!engine.box) return {CastOutcome::nothing_solid, ""};
     tell("casting", std::to_string(number));
     tell_not_understood(frame);
-    return write_capture(gl, draw, make_info(frame, number, options, engine, gl), engine, options.out);
+    return write_capture(gl, draw, make_info(frame, number, options, engine, gl), engine,
+                         output_name(options.out, getpid(), number));
 }
 
 } // namespace

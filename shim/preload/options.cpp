@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "shim/preload/output_name.h"
 #include "shim/preload/similarity.h"
 
 namespace glcast::preload {
@@ -83,6 +84,13 @@ constexpr Variable variables[] = {
      }},
     {"GLCAST_FRAME", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.frame) && o.frame >= 1; }},
+    {"GLCAST_EVERY", "a whole number from 1",
+     [](const std::string& t, Options& o) {
+         o.captures = 0;
+         return parse_number(t, o.every) && o.every >= 1;
+     }},
+    {"GLCAST_CAPTURES", "a whole number from 0",
+     [](const std::string& t, Options& o) { return parse_number(t, o.captures) && o.captures >= 0; }},
     {"GLCAST_AFTER", "seconds, 0 or more",
      [](const std::string& t, Options& o) {
          return parse_number(t, o.after_seconds) && std::isfinite(o.after_seconds) && o.after_seconds >= 0;
@@ -102,6 +110,7 @@ std::string check_output(const std::string& out) {
     const std::filesystem::path path(out);
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     std::error_code ignored;
+    if (is_pattern(folder)) return "cannot write " + out + ": %p and %f may stand in the file's name only";
     if (!std::filesystem::is_directory(folder, ignored))
         return "cannot write " + out + ": no folder " + folder.string();
     if (std::filesystem::is_directory(path, ignored)) return "cannot write " + out + ": it is a folder";

@@ -18,9 +18,11 @@ enum class FrameMatrix {
 
 struct Options {
     bool armed = false; ///< GLCAST_OUT or GLCAST_LIST is set, and nothing is wrong
-    std::string out;    ///< GLCAST_OUT: file to write
+    std::string out;    ///< GLCAST_OUT: file to write; %p is the process, %f the frame, %% a per cent sign
     int n = 512;        ///< GLCAST_N: samples per axis
     long frame = 1;     ///< GLCAST_FRAME: first frame that may be taken, from 1
+    long every = 1;     ///< GLCAST_EVERY: of the frames of a window that may be taken, every so many-th
+    long captures = 1;  ///< GLCAST_CAPTURES: how many at most, 0: no limit; default 1, with GLCAST_EVERY 0
     double after_seconds =
         0; ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
     NormalMethod normals = NormalMethod::signed_lights; ///< GLCAST_NORMALS: signed, six

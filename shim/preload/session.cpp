@@ -3,8 +3,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <climits>
 #include <cstdlib>
 #include <mutex>
 #include <unordered_map>
@@ -26,7 +28,8 @@ struct Session {
     std::mutex mutex;           ///< guards `contexts` and the counts in them; never held over a GL or X call
     std::unordered_map<void*, std::unique_ptr<NativeContext>> contexts;
     std::atomic<bool> waiting{
-        options.armed}; ///< for a frame to cast; false when one was cast, or none can be
+        options.armed}; ///< for a frame to cast; false when all were cast, or none can be
+    std::atomic<long> captures_left{options.captures > 0 ? options.captures : LONG_MAX};
     std::atomic<bool> casting{false};
     std::atomic<bool> hooked{false};
     std::atomic<bool> settled{false}; ///< captured, listed or failed: nothing more to say at exit
@@ -110,8 +113,9 @@ bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
     const auto seconds = std::chrono::duration<double>(Clock::now() - s.start).count();
     if (seconds < s.options.after_seconds) return false;
     const std::lock_guard lock(s.mutex);
-    const auto swaps = context.frames.find(drawable);
-    return (swaps == context.frames.end() ? 0 : swaps->second) + 1 >= s.options.frame;
+    const auto at = context.frames.find(drawable);
+    const auto frames = at == context.frames.end() ? NativeContext::Frames() : at->second;
+    return frames.ended + 1 >= std::max(frames.next_wish, s.options.frame);
 }
 
 /// Record what follows, if it may be the frame that is waited for.
@@ -139,14 +143,24 @@ void end_program() {
     kill(getpid(), SIGTERM);
 }
 
-void finish(Session& s, NativeContext& context, const CastResult& result) {
-    stop_waiting(s);
+/// A frame that was asked for is captured, listed, or lost for good.
+void finish(Session& s, NativeContext& context, long number, const CastResult& result) {
     s.settled = true;
+    const bool last = --s.captures_left <= 0 || result.outcome == CastOutcome::listed;
+    if (last) stop_waiting(s);
+    {
+        const std::lock_guard lock(s.mutex);
+        context.frames[context.recorded_drawable].next_wish = number + s.options.every;
+    }
     if (context.sibling) context.system->destroy(context.display, context.sibling);
     context.sibling = nullptr;
-    say("%s", result.message.c_str());
-    if (result.outcome == CastOutcome::failed) tell("failed", result.message);
-    if (result.outcome != CastOutcome::failed && s.options.quit) end_program();
+    if (result.outcome == CastOutcome::failed) {
+        say_once("%s", result.message.c_str());
+        tell("failed", result.message);
+    } else {
+        say("%s", result.message.c_str());
+    }
+    if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
 }
 
 void cast_recorded_frame(Session& s, NativeContext& context, long number) {
@@ -162,7 +176,7 @@ void cast_recorded_frame(Session& s, NativeContext& context, long number) {
     const CastResult result = cast_frame(context, *frame, number, s.options);
     s.casting = false;
     if (result.outcome == CastOutcome::nothing_solid) return frame_without_cast(s);
-    finish(s, context, result);
+    finish(s, context, number, result);
 }
 
 /// Count the frame that ends here, and cast it if it was recorded.
@@ -171,7 +185,7 @@ void end_frame(Session& s, NativeContext& context, std::uintptr_t drawable) {
     long number = 0;
     {
         const std::lock_guard lock(s.mutex);
-        number = ++context.frames[drawable];
+        number = ++context.frames[drawable].ended;
     }
     if (context.recording) cast_recorded_frame(s, context, number);
 }

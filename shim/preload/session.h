@@ -21,7 +21,11 @@ struct NativeContext {
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
     std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
     void* sibling = nullptr;                 ///< made when first needed, ours to destroy
-    std::map<std::uintptr_t, long> frames;   ///< swaps by drawable
+    struct Frames {
+        long ended = 0;     ///< swaps
+        long next_wish = 1; ///< the first that may be cast
+    };
+    std::map<std::uintptr_t, Frames> frames; ///< by drawable
     bool recording = false;
     std::uintptr_t recorded_drawable = 0;
     int threads = 0; ///< on which it is current

@@ -119,7 +119,7 @@ TEST_F(GlcastRun, RefusesSetuidPrograms) {
 
 TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
     const CommandResult result =
-        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;casting 3;captured 3 a.exr");
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;casting 3;captured 3 " + capture());
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("frame 3 of sleep is cast in " + capture()));
     EXPECT_TRUE(fs::exists(capture()));

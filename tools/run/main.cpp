@@ -82,7 +82,7 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
                           const std::function<void()>& finished) {
     const auto started = std::chrono::steady_clock::now();
     for (;;) {
-        const bool waiting = !seen.finished(); // the time limit is for the cast, not for the program
+        const bool waiting = !seen.finished(options.captures); // the time limit is for the cast, not for the program
         pollfd events[] = {{pipe.file_descriptor(), POLLIN, 0}, {signals, POLLIN, 0}};
         const int ready = poll(events, 2, waiting ? poll_timeout(options, started) : -1);
         signalfd_siginfo signal{};
@@ -96,10 +96,10 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
         program.reap();
         const bool alive = program.alive(); // before the last look at the pipe, so that no line is missed
         pipe.read_into(seen);
-        if (waiting && seen.finished()) {
+        if (waiting && seen.finished(options.captures)) {
             finished();
         }
-        if (options.quit && seen.finished()) {
+        if (options.quit && seen.finished(options.captures)) {
             return "done";
         }
         if (!alive) {
@@ -120,12 +120,21 @@ int report(const Options& options, const Seen& seen, const std::string& ending) 
         }
         return 0;
     }
-    if (!seen.captured) {
+    if (seen.captures == 0) {
         return fail(describe_failure(seen, ending));
     }
     const std::string name = fs::path(options.program[0]).filename().string();
-    std::cerr << "glcast-run: frame " << seen.captured_frame << " of " << name << " is cast in "
-              << options.output << '\n';
+    if (seen.captures == 1) {
+        std::cerr << "glcast-run: frame " << seen.captured_frame << " of " << name << " is cast in "
+                  << seen.captured_file << '\n';
+    } else {
+        std::cerr << "glcast-run: " << seen.captures << " frames of " << name << " are cast, the last in "
+                  << seen.captured_file << '\n';
+    }
+    if (options.captures > seen.captures) {
+        return fail("only " + std::to_string(seen.captures) + " of " + std::to_string(options.captures) +
+                    " captures: " + ending);
+    }
     return 0;
 }
 

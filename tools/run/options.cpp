@@ -95,6 +95,13 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_AFTER")
         ->check(CLI::Range(0.0, 1e6))
         ->excludes(frame);
+    app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
+        ->envname("GLCAST_EVERY")
+        ->check(CLI::Range(1L, 1'000'000'000L));
+    app.add_option("--captures", o.captures,
+                   "Cast so many frames (default: 1; with --every no limit, but 1 with --quit)")
+        ->envname("GLCAST_CAPTURES")
+        ->check(CLI::Range(1L, 1'000'000'000L));
     app.add_option("--normals", o.normals, "signed: one render; six: the paper's six renders")
         ->envname("GLCAST_NORMALS")
         ->check(CLI::IsMember({"signed", "six"}))
@@ -159,6 +166,9 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         return usage("no PROGRAM given");
     }
     options.quit |= options.list;
+    if (options.captures < 0) {
+        options.captures = options.every > 0 && !options.quit ? 0 : 1;
+    }
     if (options.timeout_seconds == 0 && (options.quit || options.headless)) {
         options.timeout_seconds = default_quit_timeout_seconds;
     }
@@ -167,7 +177,8 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         return Parsed::run;
     }
     if (options.output.empty()) {
-        options.output = std::filesystem::path(options.program[0]).filename().string() + ".exr";
+        options.output = std::filesystem::path(options.program[0]).filename().string() +
+                         (options.captures == 1 ? ".exr" : ".%f.exr");
     }
     options.output = std::filesystem::absolute(options.output).lexically_normal();
     return Parsed::run;
@@ -184,6 +195,8 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_OUT", o.output},
         {"GLCAST_N", std::to_string(o.n)},
         {"GLCAST_FRAME", o.frame > 0 ? std::to_string(o.frame) : ""},
+        {"GLCAST_EVERY", o.every > 0 ? std::to_string(o.every) : ""},
+        {"GLCAST_CAPTURES", std::to_string(o.captures)},
         {"GLCAST_AFTER", o.after_seconds > 0 ? number(o.after_seconds) : ""},
         {"GLCAST_NORMALS", o.normals},
         {"GLCAST_BOX", o.box},

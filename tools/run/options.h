@@ -9,10 +9,12 @@
 namespace glcast::run {
 
 struct Options {
-    std::string output; ///< absolute; empty with `list`
+    std::string output; ///< absolute; empty with `list`; %p and %f are the shim's to fill in
     int n = 512;
     long frame = 0;           ///< 0: the first with solid geometry
     double after_seconds = 0; ///< 0: at once
+    long every = 0;           ///< cast every so many-th frame; 0: not asked for
+    long captures = -1;       ///< so many, 0: no limit; never negative after parse_options
     std::string normals = "signed";
     std::string box;          ///< x0,y0,z0,x1,y1,z1, or empty
     std::string frame_matrix; ///< eye, base, 16 numbers, or empty

@@ -20,7 +20,11 @@ void take_line(const std::string& line, Seen& seen) {
         {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
         {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
         {"captured",
-         [=](const std::string& rest, Seen& s) { s.captured = true, s.captured_frame = number(rest); }},
+         [=](const std::string& rest, Seen& s) {
+             ++s.captures;
+             s.captured_frame = number(rest);
+             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+         }},
         {"failed",
          [](const std::string& rest, Seen& s) { s.failed = rest.empty() ? "the capture failed" : rest; }},
         {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},

@@ -12,13 +12,17 @@ struct Seen {
     long frames = 0;     ///< at least so many have ended without a cast
     std::string refused; ///< why a frame could not be recorded, the last one
     long casting = 0;    ///< the frame being cast
-    bool captured = false;
-    long captured_frame = 0;
+    long captures = 0;
+    long captured_frame = 0;   ///< the last
+    std::string captured_file; ///< its name
     std::string failed;
     std::vector<std::string> groups;
     bool listed = false;
 
-    bool finished() const { return captured || listed || !failed.empty(); }
+    /// All is there that was asked for, or nothing more will come. `wanted` captures, 0: no limit.
+    bool finished(long wanted) const {
+        return listed || (wanted > 0 && captures >= wanted) || (wanted == 1 && !failed.empty());
+    }
 };
 
 /// Takes one line in; kinds that are not known are skipped.
