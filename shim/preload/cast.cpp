@@ -26,6 +26,8 @@ constexpr double far_ratios[] = {100, 3'000, 1e6};
 class SiblingScope {
   public:
     explicit SiblingScope(NativeContext& of) : context(of), program(of.system->current()) {
+        if (!context.system->can_return_to(program))
+            throw std::runtime_error("the program has destroyed its drawable");
         if (!context.sibling) context.sibling = context.make_sibling();
         if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
         Binding binding = program;

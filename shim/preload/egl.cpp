@@ -31,6 +31,7 @@ namespace {
 #define GLCAST_EGL_QUERIES(X)                                                                                \
     X(eglBindAPI)                                                                                            \
     X(eglQueryAPI)                                                                                           \
+    X(eglQuerySurface)                                                                                       \
     X(eglGetError)                                                                                           \
     X(eglGetCurrentContext)                                                                                  \
     X(eglGetCurrentDisplay)                                                                                  \
@@ -81,6 +82,14 @@ class Egl : public WindowSystem {
     bool bind(const Binding& b) const override {
         const DesktopApi api;
         return real().eglMakeCurrent(b.display, as_surface(b.draw), as_surface(b.read), b.context);
+    }
+    bool can_return_to(const Binding& b) const override {
+        EGLint id = 0;
+        bool alive = true;
+        for (const std::uintptr_t surface : {b.draw, b.read})
+            alive &= surface == 0 || real().eglQuerySurface(b.display, as_surface(surface), EGL_CONFIG_ID, &id);
+        if (!alive) real().eglGetError(); // ours
+        return alive;
     }
     void destroy(void* display, void* context) const override { real().eglDestroyContext(display, context); }
 };

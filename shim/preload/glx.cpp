@@ -45,7 +45,8 @@ namespace {
     X(glXGetCurrentContext)                                                                                  \
     X(glXGetCurrentDisplay)                                                                                  \
     X(glXGetCurrentDrawable)                                                                                 \
-    X(glXGetCurrentReadDrawable)
+    X(glXGetCurrentReadDrawable)                                                                             \
+    X(glXQueryDrawable)
 
 struct RealGlx {
 #define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
@@ -68,6 +69,16 @@ const RealGlx& real() {
 
 Display* as_display(void* display) { return static_cast<Display*>(display); }
 
+/// Windows and pixmaps are X's to ask about, GLXWindows and pbuffers GLX's.
+bool drawable_exists(void* display, GLXDrawable drawable) {
+    if (drawable == 0 || x_drawable_exists(display, drawable)) return true;
+    if (!real().glXQueryDrawable) return true;
+    XErrorTrap trap(display);
+    unsigned width = 0;
+    real().glXQueryDrawable(as_display(display), drawable, GLX_WIDTH, &width);
+    return !trap.failed();
+}
+
 class Glx : public WindowSystem {
   public:
     const char* name() const override { return "GLX"; }
@@ -86,6 +97,10 @@ class Glx : public WindowSystem {
                               ? real().glXMakeContextCurrent(as_display(b.display), b.draw, b.read, context)
                               : real().glXMakeCurrent(as_display(b.display), b.draw, context);
         return done && !trap.failed();
+    }
+
+    bool can_return_to(const Binding& b) const override {
+        return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));
     }
 
     void destroy(void* display, void* context) const override {

@@ -102,6 +102,8 @@ constexpr Variable variables[] = {
     {"GLCAST_LIST", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.list); }},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
+    {"GLCAST_READ_ENDS", "0 or 1",
+     [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
     {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
 };
 

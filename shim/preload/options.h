@@ -33,6 +33,7 @@ struct Options {
     bool list = false; ///< GLCAST_LIST: print the groups of the scene, capture nothing
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
+    bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false; ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
     std::string error; ///< one line; not armed then
 };

@@ -113,6 +113,7 @@ bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
     const auto seconds = std::chrono::duration<double>(Clock::now() - s.start).count();
     if (seconds < s.options.after_seconds) return false;
     const std::lock_guard lock(s.mutex);
+    if (context.destroyed) return false;
     const auto at = context.frames.find(drawable);
     const auto frames = at == context.frames.end() ? NativeContext::Frames() : at->second;
     return frames.ended + 1 >= std::max(frames.next_wish, s.options.frame);
@@ -179,6 +180,11 @@ void cast_recorded_frame(Session& s, NativeContext& context, long number) {
     finish(s, context, number, result);
 }
 
+bool is_destroyed(Session& s, const NativeContext& context) {
+    const std::lock_guard lock(s.mutex);
+    return context.destroyed;
+}
+
 /// Count the frame that ends here, and cast it if it was recorded.
 void end_frame(Session& s, NativeContext& context, std::uintptr_t drawable) {
     ++s.frames;
@@ -187,7 +193,10 @@ void end_frame(Session& s, NativeContext& context, std::uintptr_t drawable) {
         const std::lock_guard lock(s.mutex);
         number = ++context.frames[drawable].ended;
     }
-    if (context.recording) cast_recorded_frame(s, context, number);
+    if (!context.recording) return;
+    // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
+    if (is_destroyed(s, context)) return stop_recording(context);
+    cast_recorded_frame(s, context, number);
 }
 
 bool draws_to_front() {
@@ -312,14 +321,24 @@ void after_swap(std::uintptr_t drawable) noexcept {
     });
 }
 
+bool always() { return true; }
+
+/// A frame's end that is no swap; the next one begins right behind it.
+void frame_ends_here(Session& s, bool (*really)()) {
+    NativeContext* const context = thread_state.context;
+    if (!s.waiting || !context || !context->shadow || thread_state.drawable == 0) return;
+    if (record::busy(*context->shadow) || !really()) return;
+    end_frame(s, *context, thread_state.drawable);
+    start_recording(s, *context, thread_state.drawable);
+}
+
 void flushed() noexcept {
-    guarded([](Session& s) {
-        NativeContext* const context = thread_state.context;
-        if (!s.waiting || !context || !context->shadow || thread_state.drawable == 0) return;
-        if (record::busy(*context->shadow) || !draws_to_front()) return;
-        end_frame(s, *context, thread_state.drawable);
-        start_recording(s, *context, thread_state.drawable);
-    });
+    guarded([](Session& s) { frame_ends_here(s, s.options.read_ends ? always : draws_to_front); });
+}
+
+void about_to_read() noexcept {
+    if (!existing.load(std::memory_order_relaxed) || !session().options.read_ends) return;
+    guarded([](Session& s) { frame_ends_here(s, always); });
 }
 
 } // namespace glcast::preload

@@ -29,6 +29,9 @@ const GlTable& resolve(GlCall call);
 /// The recorder's, after making this thread known to it.
 const GlTable& recording_table();
 
+/// Before a real glReadPixels: ends a frame where GLCAST_READ_ENDS says so.
+void about_to_read() noexcept;
+
 /// After a real glFlush or glFinish: the end of a frame for who draws to the front buffer.
 void flushed() noexcept;
 
@@ -51,6 +54,15 @@ void flushed() noexcept;
         const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
         (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME();                         \
         glcast::preload::flushed();                                                                          \
+    }                                                                                                        \
+    GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
+
+#define GLCAST_READ_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                                \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                   \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS {                                      \
+        glcast::preload::about_to_read();                                                                    \
+        const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
+        (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME ARGUMENTS;                 \
     }                                                                                                        \
     GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
 

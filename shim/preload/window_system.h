@@ -19,6 +19,8 @@ class WindowSystem {
     virtual Binding current() const = 0;
     /// False when it failed; errors do not reach the program.
     virtual bool bind(const Binding& binding) const = 0;
+    /// Whether its drawables still exist: to leave a context whose window has been destroyed is to lose it.
+    virtual bool can_return_to(const Binding& binding) const = 0;
     virtual void destroy(void* display, void* context) const = 0;
 };
 

@@ -14,8 +14,9 @@ struct XCalls {
     decltype(&::XSetErrorHandler) set_handler = nullptr;
     decltype(&::XSync) sync = nullptr;
     decltype(&::XNextRequest) next_request = nullptr;
+    decltype(&::XGetGeometry) get_geometry = nullptr;
 
-    bool complete() const { return set_handler && sync && next_request; }
+    bool complete() const { return set_handler && sync && next_request && get_geometry; }
 };
 
 template <class Function> void find(void* library, const char* name, Function*& function) {
@@ -30,6 +31,7 @@ const XCalls& x_calls() {
         find(library, "XSetErrorHandler", found.set_handler);
         find(library, "XSync", found.sync);
         find(library, "XNextRequest", found.next_request);
+        find(library, "XGetGeometry", found.get_geometry);
         return found;
     }();
     return calls;
@@ -67,6 +69,16 @@ XErrorTrap::~XErrorTrap() {
     x_calls().sync(trap.display, False);
     x_calls().set_handler(trap.previous);
     trap.display = nullptr;
+}
+
+bool x_drawable_exists(void* display, unsigned long drawable) {
+    if (!x_calls().complete()) return true;
+    XErrorTrap trap(display);
+    Window root = 0;
+    int x = 0, y = 0;
+    unsigned width = 0, height = 0, border = 0, depth = 0;
+    return x_calls().get_geometry(static_cast<Display*>(display), drawable, &root, &x, &y, &width, &height,
+                                  &border, &depth) != 0;
 }
 
 bool XErrorTrap::failed() {

@@ -17,4 +17,7 @@ class XErrorTrap {
     bool failed();
 };
 
+/// Whether a window or pixmap exists. True where it cannot be asked.
+bool x_drawable_exists(void* display, unsigned long drawable);
+
 } // namespace glcast::preload

@@ -30,7 +30,9 @@ struct Indices {
     std::size_t blob_offset = 0;
     std::vector<std::byte> own; ///< where they were read or rewritten for this draw
     std::vector<DrawSegment> segments;
-    std::int64_t lo = 0, hi = -1; ///< range of vertices, base vertex included
+    std::int64_t base = 0;        ///< added to each index
+    std::int64_t lo = 0, hi = -1; ///< range of vertices, base included
+    std::uint32_t largest = 0;    ///< index, base not included
     std::size_t used = 0;         ///< how many indices are not restarts
 };
 
@@ -134,8 +136,11 @@ void scan_indices(Draw& draw) {
                    });
     close(std::uint32_t(call.count));
     if (indices.used) {
-        indices.lo = std::int64_t(lo) + call.base_vertex;
-        indices.hi = std::int64_t(hi) + call.base_vertex;
+        constexpr std::int64_t wrap = std::int64_t(1) << 32; // sums are taken in 32 bits
+        indices.base = std::int64_t(lo) + call.base_vertex >= wrap ? call.base_vertex - wrap : call.base_vertex;
+        indices.lo = lo + indices.base;
+        indices.hi = hi + indices.base;
+        indices.largest = hi;
     }
 }
 
@@ -146,6 +151,10 @@ bool is_sparse(const Draw& draw) {
                                     [&](const Array& array) { return !array.buffer || !draw.may_refer; });
     return client && draw.indices.hi - draw.indices.lo + 1 > std::int64_t(2 * draw.indices.used + 64);
 }
+
+/// Replay reads client memory from where index 0 would lie. With an index of two thousand millions, brought
+/// back by the base vertex, llvmpipe falls over the offset (piglit's arb_draw_elements_base_vertex-negative-index).
+bool is_far_off(const Indices& indices) { return indices.base != 0 && indices.largest >= 1u << 24; }
 
 /// Renumbers the vertices that are used 0, 1, 2, ...
 void pick_vertices(Draw& draw) {
@@ -190,7 +199,7 @@ bool find_source(Draw& draw, const Array& array) {
     } else if (Blob blob = draw.may_refer ? whole_buffer(draw.context, array.buffer) : nullptr) {
         if (offset < 0 || std::size_t(offset + start) + bytes > blob->size()) return false;
         source.from = blob->data() + offset + start;
-        source.blob_element_0 = offset + std::int64_t(draw.call.base_vertex) * array.stride;
+        source.blob_element_0 = offset + draw.indices.base * array.stride;
         source.blob = std::move(blob);
     } else {
         source.own.resize(bytes);
@@ -217,7 +226,7 @@ void copy_vertices(const Draw& draw, const Source& source, std::byte* to) {
         std::memcpy(to, source.from, count * element);
         return;
     }
-    const std::int64_t base = draw.call.base_vertex - draw.indices.lo;
+    const std::int64_t base = draw.indices.base - draw.indices.lo;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t vertex = draw.picked.empty() ? i : std::size_t(draw.picked[i] + base);
         std::memcpy(to + i * element, source.from + vertex * stride, element);
@@ -252,8 +261,8 @@ void write_draw(Draw& draw, Stream& stream) {
         data = align8(indices.bytes);
     }
     // With picked vertices, or with no indices, element 0 of the data is the first one; else it is vertex
-    // `lo`, which index `lo` - base_vertex names.
-    const std::int64_t first_index = draw.picked.empty() ? indices.lo - call.base_vertex : 0;
+    // `lo`, which index `lo` - base names.
+    const std::int64_t first_index = draw.picked.empty() ? indices.lo - indices.base : 0;
     std::vector<DrawArray> arrays;
     for (const Source& source : draw.sources) {
         const Array& array = *source.array;
@@ -292,7 +301,7 @@ bool read_draw(Draw& draw) {
         if (!find_indices(draw)) return false;
         scan_indices(draw);
         if (!draw.indices.used) return true;
-        if (is_sparse(draw)) pick_vertices(draw);
+        if (is_sparse(draw) || is_far_off(draw.indices)) pick_vertices(draw);
     } else {
         draw.indices.segments.push_back({std::uint32_t(call.first), std::uint32_t(call.count)});
         draw.indices.lo = call.first;
