@@ -136,6 +136,21 @@ const Case cases[] = {
          set_arrays(gl, fan);
          gl.DrawElementsBaseVertex(GL_TRIANGLES, 3, GL_UNSIGNED_INT, indices, -98);
      }},
+    // From a buffer, since with client arrays llvmpipe falls over such indices by itself.
+    {"base_vertex_from_far_off",
+     [](auto& gl) { make_fan_buffers(gl), gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0); },
+     [](auto& gl) {
+         const GLuint indices[] = {2091398468, 2091398469, 2091398470};
+         begin_scene(gl);
+         gl.DrawElementsBaseVertex(GL_TRIANGLES, 3, GL_UNSIGNED_INT, indices, -2091398468 + 2);
+     }},
+    {"base_vertex_wraps",
+     [](auto& gl) { make_fan_buffers(gl), gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0); },
+     [](auto& gl) {
+         const GLuint indices[] = {4294967288u, 4294967289u, 4294967290u};
+         begin_scene(gl);
+         gl.DrawElementsBaseVertex(GL_TRIANGLES, 3, GL_UNSIGNED_INT, indices, 10);
+     }},
     {"instanced", nullptr,
      [](auto& gl) {
          begin_scene(gl);
