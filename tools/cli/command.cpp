@@ -30,19 +30,21 @@ void require_writable(const std::filesystem::path& path) {
 }
 
 nlohmann::ordered_json to_json(const MeshCheck& c) {
-    return {{"vertices", c.vertices},
-            {"edges", c.edges},
-            {"triangles", c.triangles},
-            {"components", c.components},
-            {"euler", c.euler},
-            {"boundaryEdges", c.boundary_edges},
-            {"nonManifoldEdges", c.non_manifold_edges},
-            {"nonManifoldVertices", c.non_manifold_vertices},
-            {"degenerateTriangles", c.degenerate_triangles},
-            {"unusedVertices", c.unused_vertices},
-            {"volume", c.volume},
-            {"area", c.area},
-            {"closedManifold", c.closed_manifold()}};
+    nlohmann::ordered_json json = {{"vertices", c.vertices},
+                                   {"edges", c.edges},
+                                   {"triangles", c.triangles},
+                                   {"components", c.components},
+                                   {"euler", c.euler},
+                                   {"boundaryEdges", c.boundary_edges},
+                                   {"nonManifoldEdges", c.non_manifold_edges},
+                                   {"nonManifoldVertices", c.non_manifold_vertices},
+                                   {"degenerateTriangles", c.degenerate_triangles},
+                                   {"unusedVertices", c.unused_vertices},
+                                   {"volume", c.volume},
+                                   {"area", c.area},
+                                   {"closedManifold", c.closed_manifold()}};
+    if (c.self_intersections) json["selfIntersections"] = *c.self_intersections;
+    return json;
 }
 
 std::string summary(const MeshCheck& check) {

@@ -55,11 +55,11 @@ Json describe_capture(const Options& options, const Capture& capture) {
     return json;
 }
 
-Json describe_level(const Level& level) {
+Json describe_level(const Level& level, const MeshCheck& check) {
     glm::dvec3 lo = level.mesh.positions.at(0), hi = lo;
     for (const glm::dvec3& p : level.mesh.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
     Json json = {{"name", level.name}};
-    json.update(to_json(check_mesh(level.mesh)));
+    json.update(to_json(check));
     json["bounds"] = {{"lo", vector_json(lo)}, {"hi", vector_json(hi)}};
     json["hasNormals"] = !level.mesh.normals.empty();
     json["hasColours"] = !level.mesh.colours.empty();
@@ -89,10 +89,10 @@ void print_capture(const Json& j) {
         std::printf("not understood: %s, %ld times\n", what.c_str(), count.get<long>());
 }
 
-void print_level(const Json& j, const Level& level) {
+void print_level(const Json& j, const Level& level, const MeshCheck& check) {
     const auto &lo = j["bounds"]["lo"], &hi = j["bounds"]["hi"];
     std::printf("%s\n", level.name.c_str());
-    std::printf("  %s\n", summary(check_mesh(level.mesh)).c_str());
+    std::printf("  %s\n", summary(check).c_str());
     std::printf("  %ld vertices%s%s, %ld component%s, Euler characteristic %ld\n", j["vertices"].get<long>(),
                 j["hasNormals"].get<bool>() ? ", normals" : "",
                 j["hasColours"].get<bool>() ? ", colours" : "", j["components"].get<long>(),
@@ -114,13 +114,17 @@ int info(const Options& options) {
     const std::vector<Level> levels = read_levels(options.file);
     Json json = {
         {"file", options.file}, {"kind", "mesh"}, {"bytes", std::filesystem::file_size(options.file)}};
-    for (const Level& level : levels) json["levels"].push_back(describe_level(level));
+    std::vector<MeshCheck> checks;
+    for (const Level& level : levels) {
+        checks.push_back(check_mesh(level.mesh, CheckDepth::everything));
+        json["levels"].push_back(describe_level(level, checks.back()));
+    }
     if (options.json) {
         print_json(json);
         return 0;
     }
     std::printf("mesh      %s, %ld bytes\n", options.file.c_str(), json["bytes"].get<long>());
-    for (std::size_t k = 0; k < levels.size(); ++k) print_level(json["levels"][k], levels[k]);
+    for (std::size_t k = 0; k < levels.size(); ++k) print_level(json["levels"][k], levels[k], checks[k]);
     return 0;
 }
 

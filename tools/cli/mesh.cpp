@@ -25,7 +25,7 @@ struct Options {
     std::string capture, output, method = "contour", normals = "drawn";
     double close_gaps = 1;
     std::vector<double> edges, triangles, ratio;
-    bool json = false;
+    bool check = false, json = false;
 };
 
 struct Stopwatch {
@@ -98,6 +98,10 @@ void require_manifold(const MeshCheck& check, const std::string& what) {
         throw std::runtime_error(what + " is not closed: " + describe(check) + "; nothing was written");
 }
 
+CheckDepth depth(const Options& options) {
+    return options.check ? CheckDepth::everything : CheckDepth::topology;
+}
+
 void make_surface(const Options& options, Made& made) {
     Capture capture;
     {
@@ -117,7 +121,7 @@ void make_surface(const Options& options, Made& made) {
     how.geometric_normals = options.normals == "geometric";
     made.levels.push_back(
         {reconstruct(capture.images, capture.info.box, how, &made.report), "level 0", 0, 0, made.sample});
-    made.checks.push_back(check_mesh(made.full()));
+    made.checks.push_back(check_mesh(made.full(), depth(options)));
     made.surface_seconds = watch.seconds();
     require_manifold(made.checks[0], "the surface");
 }
@@ -140,7 +144,7 @@ void make_levels(const Options& options, Made& made) {
     for (auto& mesh : meshes) simplified.push_back(mesh.get());
     for (Mesh& mesh : simplified) {
         const std::string name = "level " + std::to_string(made.levels.size());
-        made.checks.push_back(check_mesh(mesh));
+        made.checks.push_back(check_mesh(mesh, depth(options)));
         require_manifold(made.checks.back(), name);
         made.levels.push_back({std::move(mesh), name, 0, 0, made.sample});
     }
@@ -276,6 +280,7 @@ Run declare_mesh(CLI::App& app) {
     app.add_option("--normals", options->normals, "drawn: as the program lit it; geometric: of the surface")
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();
+    app.add_flag("--check", options->check, "count self-intersections of every level too");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return make_mesh(*options); };
 }

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "tools/mesh/intersections.h"
+
 namespace glcast {
 namespace {
 
@@ -128,8 +130,10 @@ void count_components(const Mesh& mesh, const Corners& corners, MeshCheck& check
 
 } // namespace
 
-MeshCheck check_mesh(const Mesh& mesh) {
+MeshCheck check_mesh(const Mesh& mesh, CheckDepth depth) {
     MeshCheck check;
+    if (depth == CheckDepth::everything)
+        check.self_intersections = count_self_intersections(mesh.positions, mesh.triangles);
     check.vertices = mesh.positions.size();
     check.triangles = mesh.triangles.size();
     measure(mesh, check);
@@ -152,7 +156,9 @@ MeshCheck check_mesh(const Mesh& mesh) {
     return check;
 }
 
-std::string describe(const MeshCheck& check) {
+namespace {
+
+std::string describe_topology(const MeshCheck& check) {
     if (check.closed_manifold()) return "closed two-manifold";
     if (check.triangles == 0) return "no triangles";
     const std::pair<std::size_t, const char*> faults[] = {
@@ -170,6 +176,16 @@ std::string describe(const MeshCheck& check) {
         text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + plural;
     }
     return text;
+}
+
+} // namespace
+
+std::string describe(const MeshCheck& check) {
+    std::string text = describe_topology(check);
+    if (!check.self_intersections) return text;
+    const std::size_t pairs = *check.self_intersections;
+    text += pairs ? ", " + std::to_string(pairs) : ", no";
+    return text + (pairs == 1 ? " self-intersection" : " self-intersections");
 }
 
 } // namespace glcast

@@ -1,5 +1,6 @@
 // Is a mesh a closed two-manifold? Used by every command that writes one.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "tools/mesh/mesh.h"
@@ -16,6 +17,9 @@ struct MeshCheck {
     std::size_t unused_vertices = 0;
     long euler = 0;              ///< V - E + F over used vertices and triangles that are not degenerate
     double volume = 0, area = 0; ///< signed volume: positive when triangles face outwards
+    /// Pairs of triangles that meet elsewhere than where they are joined (intersections.h); unset when not
+    /// counted.
+    std::optional<std::size_t> self_intersections;
 
     bool closed_manifold() const {
         return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0 &&
@@ -23,10 +27,16 @@ struct MeshCheck {
     }
 };
 
-/// O(triangles) memory and about linear time.
-MeshCheck check_mesh(const Mesh& mesh);
+enum class CheckDepth {
+    topology,   ///< one pass over the edges
+    everything, ///< self-intersections too: some microseconds a triangle, all cores
+};
 
-/// "closed two-manifold", or what is wrong with it: "3 boundary edges, 1 non-manifold vertex".
+/// O(triangles) memory and about linear time.
+MeshCheck check_mesh(const Mesh& mesh, CheckDepth depth = CheckDepth::topology);
+
+/// "closed two-manifold", or what is wrong with it: "3 boundary edges, 1 non-manifold vertex"; then, where
+/// they were counted, ", no self-intersections" or how many.
 std::string describe(const MeshCheck& check);
 
 } // namespace glcast

@@ -1,0 +1,191 @@
+// A tree of boxes over the triangles in the order of their centres along a Morton curve (Lauterbach et al.
+// 2009), and the exact test of every pair whose boxes overlap.
+#include "tools/mesh/intersections.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include "tools/mesh/triangle_contact.h"
+
+namespace glcast {
+namespace {
+
+constexpr std::size_t leaf_size = 4; // triangles
+constexpr float far_away = std::numeric_limits<float>::infinity();
+
+/// Holds what was added to it; floats, rounded outwards.
+struct Bounds {
+    glm::vec3 lo{far_away}, hi{-far_away};
+
+    void add(const glm::dvec3& p) {
+        for (int k = 0; k < 3; ++k) {
+            float down = float(p[k]), up = down;
+            if (double(down) > p[k]) down = std::nextafter(down, -far_away);
+            if (double(up) < p[k]) up = std::nextafter(up, far_away);
+            lo[k] = std::min(lo[k], down);
+            hi[k] = std::max(hi[k], up);
+        }
+    }
+    void add(const Bounds& other) {
+        lo = glm::min(lo, other.lo);
+        hi = glm::max(hi, other.hi);
+    }
+    bool overlaps(const Bounds& o) const {
+        return lo.x <= o.hi.x && o.lo.x <= hi.x && lo.y <= o.hi.y && o.lo.y <= hi.y && lo.z <= o.hi.z &&
+               o.lo.z <= hi.z;
+    }
+};
+
+/// The low 10 bits of x, three apart.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000ff;
+    x = (x | x << 8) & 0x0300f00f;
+    x = (x | x << 4) & 0x030c30c3;
+    return (x | x << 2) & 0x09249249;
+}
+
+class Tree {
+  public:
+    Tree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+         std::span<const std::uint32_t> which);
+    /// Calls visit(t) for each triangle whose box overlaps that of triangle `of`, itself included.
+    template <class Visit> void overlapping(std::uint32_t of, Visit visit) const;
+
+  private:
+    Bounds bounds_of(std::uint32_t t) const {
+        Bounds bounds;
+        for (std::uint32_t v : triangles[t]) bounds.add(positions[v]);
+        return bounds;
+    }
+    void sort(std::span<const std::uint32_t> which);
+    std::span<const glm::dvec3> positions;
+    std::span<const Triangle> triangles;
+    std::vector<std::uint32_t> order;
+    std::vector<std::vector<Bounds>> level; ///< [0]: of leaf_size triangles each; then of two below each
+};
+
+void Tree::sort(std::span<const std::uint32_t> which) {
+    Bounds all;
+    for (std::uint32_t t : which) all.add(positions[triangles[t][0]]);
+    const glm::dvec3 lo(all.lo), size = glm::max(glm::dvec3(all.hi) - lo, glm::dvec3(1e-300));
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> keys(which.size());
+    tbb::parallel_for(std::size_t(0), which.size(), [&](std::size_t i) {
+        const Triangle& t = triangles[which[i]];
+        const glm::dvec3 centre = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
+        std::uint32_t key = 0;
+        for (int k = 0; k < 3; ++k)
+            key |= spread(std::uint32_t(std::clamp((centre[k] - lo[k]) / size[k], 0.0, 1.0) * 1023)) << k;
+        keys[i] = {key, which[i]};
+    });
+    tbb::parallel_sort(keys.begin(), keys.end());
+    order.resize(keys.size());
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+}
+
+Tree::Tree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+           std::span<const std::uint32_t> which)
+    : positions(positions), triangles(triangles) {
+    if (which.empty()) return;
+    sort(which);
+    level.emplace_back((order.size() + leaf_size - 1) / leaf_size);
+    tbb::parallel_for(std::size_t(0), level[0].size(), [&](std::size_t i) {
+        const std::size_t end = std::min(order.size(), (i + 1) * leaf_size);
+        for (std::size_t k = i * leaf_size; k < end; ++k) level[0][i].add(bounds_of(order[k]));
+    });
+    while (level.back().size() > 1) {
+        const auto& below = level.back();
+        std::vector<Bounds> above((below.size() + 1) / 2);
+        for (std::size_t i = 0; i < below.size(); ++i) above[i / 2].add(below[i]);
+        level.push_back(std::move(above));
+    }
+}
+
+template <class Visit> void Tree::overlapping(std::uint32_t of, Visit visit) const {
+    if (level.empty()) return;
+    const Bounds wanted = bounds_of(of);
+    std::pair<std::uint32_t, std::uint32_t> stack[64]; // level and number
+    int depth = 0;
+    stack[depth++] = {std::uint32_t(level.size() - 1), 0};
+    while (depth) {
+        const auto [height, i] = stack[--depth];
+        if (!level[height][i].overlaps(wanted)) continue;
+        if (height == 0) {
+            const std::size_t end = std::min(order.size(), (std::size_t(i) + 1) * leaf_size);
+            for (std::size_t k = std::size_t(i) * leaf_size; k < end; ++k)
+                if (bounds_of(order[k]).overlaps(wanted)) visit(order[k]);
+            continue;
+        }
+        if (2 * i + 1 < level[height - 1].size()) stack[depth++] = {height - 1, 2 * i + 1};
+        stack[depth++] = {height - 1, 2 * i};
+    }
+}
+
+/// found(probe, other) for each pair that meets; a pair of two probes comes once. `is_probe`: by triangle.
+template <class Found>
+void for_pairs(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+               std::span<const std::uint32_t> probes, std::span<const std::uint32_t> others, Found found) {
+    const Tree tree(positions, triangles, others);
+    const bool all = probes.size() == others.size();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, probes.size(), 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            tree.overlapping(probes[i], [&](std::uint32_t other) {
+                const std::uint32_t probe = probes[i];
+                if (other == probe) return;
+                if (other < probe && (all || std::binary_search(probes.begin(), probes.end(), other))) return;
+                if (triangles_meet(positions, triangles[probe], triangles[other])) found(probe, other);
+            });
+    });
+}
+
+std::vector<std::uint32_t> usable(std::span<const glm::dvec3> positions,
+                                  std::span<const Triangle> triangles) {
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(triangles.size());
+    for (std::uint32_t k = 0; k < triangles.size(); ++k) {
+        const Triangle& t = triangles[k];
+        if (std::max({t[0], t[1], t[2]}) < positions.size() && t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+            numbers.push_back(k);
+    }
+    return numbers;
+}
+
+} // namespace
+
+std::vector<TrianglePair> find_intersections_of(std::span<const glm::dvec3> positions,
+                                                std::span<const Triangle> triangles,
+                                                std::span<const std::uint32_t> probes,
+                                                std::span<const std::uint32_t> others) {
+    tbb::enumerable_thread_specific<std::vector<TrianglePair>> found;
+    for_pairs(positions, triangles, probes, others, [&](std::uint32_t a, std::uint32_t b) {
+        found.local().emplace_back(std::min(a, b), std::max(a, b));
+    });
+    std::vector<TrianglePair> pairs;
+    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+std::vector<TrianglePair> find_self_intersections(std::span<const glm::dvec3> positions,
+                                                  std::span<const Triangle> triangles) {
+    const std::vector<std::uint32_t> all = usable(positions, triangles);
+    return find_intersections_of(positions, triangles, all, all);
+}
+
+std::size_t count_self_intersections(std::span<const glm::dvec3> positions,
+                                     std::span<const Triangle> triangles) {
+    const std::vector<std::uint32_t> all = usable(positions, triangles);
+    std::atomic<std::size_t> count = 0;
+    for_pairs(positions, triangles, all, all, [&](std::uint32_t, std::uint32_t) { ++count; });
+    return count;
+}
+
+} // namespace glcast
