@@ -80,6 +80,9 @@ void add_capture(Bytes& to, const CaptureInfo& info) {
     for (const auto& [what, count] : info.not_understood)
         counts.push_back(std::to_string(count) + " " + what);
     exr::add_strings(to, "glcast.notUnderstood", counts);
+    exr::add_string(to, "glcast.layers", layers_name(info.layers));
+    exr::add_string(to, "glcast.layerMethod", layer_method_name(info.layer_method));
+    exr::add_v3i(to, "glcast.layerCount", info.layer_count.data());
 }
 
 void add_part(Bytes& to, const CaptureInfo& info, const Part& part, const std::string& name) {
@@ -102,10 +105,13 @@ Bytes all_headers(const CaptureInfo& info, const std::vector<Part>& parts) {
     return bytes;
 }
 
-/// Room for the headers of any views: only the digits of the layer differ, and layers are fewer than parts.
-std::size_t room_for_headers(const CaptureInfo& info, int parts) {
+/// Room for the headers of any views and layers: only the digits of the layer and what is said of all layers
+/// differ.
+std::size_t room_for_headers(CaptureInfo info, int parts) {
     Part longest;
-    longest.view.layer = std::max(parts - 1, 9);
+    longest.view.layer = max_layers;
+    info.layers = Layers::incomplete;
+    info.layer_method = LayerMethod::slab;
     return all_headers(info, std::vector<Part>(parts, longest)).data.size();
 }
 
@@ -145,16 +151,26 @@ std::string part_name(const View& view) {
            std::to_string(view.layer);
 }
 
+const char* layers_name(Layers layers) {
+    constexpr const char* names[] = {"outer", "incomplete", "complete"};
+    return names[static_cast<int>(layers)];
+}
+
+const char* layer_method_name(LayerMethod method) {
+    constexpr const char* names[] = {"none", "peel", "slab"};
+    return names[static_cast<int>(method)];
+}
+
 struct CaptureWriter::Impl {
     CaptureInfo info;
-    std::size_t expected;
+    std::size_t most;
     OutputFile file;
     std::vector<Part> parts;
     std::size_t header_room = 0;
     std::string error;
 
     Impl(std::string path, const CaptureInfo& capture, int part_count)
-        : info(capture), expected(static_cast<std::size_t>(std::max(part_count, 0))), file(std::move(path)) {}
+        : info(capture), most(static_cast<std::size_t>(std::max(part_count, 0))), file(std::move(path)) {}
 
     bool fail(std::string why) {
         if (error.empty()) error = std::move(why);
@@ -163,10 +179,15 @@ struct CaptureWriter::Impl {
     bool file_failed() { return fail(file.error()); }
 
     bool start();
-    bool why_not(const ViewImage& image);
+    bool has(const View& view) const {
+        return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.view == view; });
+    }
+    bool check(const ViewImage& image);
+    bool check_layer(const View& view);
     bool add(const ViewImage& image);
     bool write_chunks(const std::vector<exr::Chunk>& chunks, Part& part);
-    bool finish();
+    bool count_layers(Layers layers, LayerMethod method);
+    bool finish(Layers layers, LayerMethod method);
 };
 
 bool CaptureWriter::Impl::start() {
@@ -174,26 +195,35 @@ bool CaptureWriter::Impl::start() {
     if (info.n < min_resolution || info.n > max_resolution)
         return fail("n must be from 8 to 8192, not " + std::to_string(info.n));
     if (!(info.box.size > 0) || !std::isfinite(info.box.size)) return fail("the box is empty");
-    if (expected == 0) return fail("a capture needs at least one view");
-    header_room = room_for_headers(info, static_cast<int>(expected));
-    const std::size_t tables = expected * static_cast<std::size_t>(chunks_per_part(info.n)) * 8;
+    if (most < 6) return fail("a capture needs six views");
+    if (most > 3 * (max_layers + 1)) return fail("too many layers");
+    header_room = room_for_headers(info, static_cast<int>(most));
+    const std::size_t tables = most * static_cast<std::size_t>(chunks_per_part(info.n)) * 8;
     return file.skip_to(header_room + tables) || file_failed();
 }
 
-bool CaptureWriter::Impl::why_not(const ViewImage& image) {
+bool CaptureWriter::Impl::check_layer(const View& view) {
+    const std::string name = part_name(view);
+    if (has(view)) return fail("view " + name + " comes twice");
+    if (view.layer == 0) return true;
+    if (view.layer < 0 || view.layer >= max_layers || view.side != Side::minus)
+        return fail("there is no layer " + name);
+    const View before{view.axis, view.side, view.layer - 1};
+    return has(before) || fail("layer " + name + " comes before " + part_name(before));
+}
+
+bool CaptureWriter::Impl::check(const ViewImage& image) {
     const std::size_t pixels = static_cast<std::size_t>(info.n) * static_cast<std::size_t>(info.n);
     const std::string name = part_name(image.view);
     if (image.n != info.n || image.depth.size() != pixels || image.colour.size() != pixels ||
         image.normal.size() != pixels)
         return fail("view " + name + " has the wrong size");
-    if (parts.size() == expected) return fail("more views than announced");
-    for (const Part& part : parts)
-        if (part.view == image.view) return fail("view " + name + " comes twice");
-    return true;
+    if (parts.size() == most) return fail("more views than announced");
+    return check_layer(image.view);
 }
 
 bool CaptureWriter::Impl::add(const ViewImage& image) {
-    if (!error.empty() || !why_not(image)) return false;
+    if (!error.empty() || !check(image)) return false;
     const int n = info.n;
     const std::vector<exr::Channel> channels(std::begin(channel_table), std::end(channel_table));
     std::vector<std::vector<float>> planes(channel_count,
@@ -227,12 +257,27 @@ bool CaptureWriter::Impl::write_chunks(const std::vector<exr::Chunk>& chunks, Pa
     return true;
 }
 
-bool CaptureWriter::Impl::finish() {
+bool CaptureWriter::Impl::count_layers(Layers layers, LayerMethod method) {
+    info.layer_count = {};
+    for (const Part& part : parts)
+        if (part.view.side == Side::minus) ++info.layer_count[static_cast<int>(part.view.axis)];
+    info.layers = layers;
+    info.layer_method = method;
+    const bool looked = method != LayerMethod::none, deeper = parts.size() > 6;
+    return (looked == (layers != Layers::outer) && (looked || !deeper)) ||
+           fail("what is said of the layers does not go with them");
+}
+
+bool CaptureWriter::Impl::finish(Layers layers, LayerMethod method) {
     if (!error.empty()) return false;
-    if (parts.size() != expected)
-        return fail(std::to_string(parts.size()) + " of " + std::to_string(expected) + " views were added");
+    for (Axis axis : {Axis::x, Axis::y, Axis::z})
+        for (Side side : {Side::minus, Side::plus}) {
+            const View view{axis, side, 0};
+            if (!has(view)) return fail("view " + part_name(view) + " is missing");
+        }
+    if (!count_layers(layers, method)) return false;
     Bytes front = all_headers(info, parts);
-    if (front.data.size() > header_room) return fail("a layer number is too large");
+    if (front.data.size() > header_room) return fail("the headers are longer than the room kept for them");
     for (const Part& part : parts)
         for (std::uint64_t at : part.chunk_at) front.u64(at);
     // What is left before the first chunk stays a gap of zeros; readers follow the offset tables.
@@ -253,9 +298,9 @@ template <class F> bool guarded(std::string* error, F&& body) {
 
 } // namespace
 
-CaptureWriter::CaptureWriter(std::string path, const CaptureInfo& info, int parts) {
+CaptureWriter::CaptureWriter(std::string path, const CaptureInfo& info, int most_parts) {
     guarded(nullptr, [&] {
-        impl = std::make_unique<Impl>(std::move(path), info, parts);
+        impl = std::make_unique<Impl>(std::move(path), info, most_parts);
         return true;
     });
     if (impl) guarded(&impl->error, [&] { return impl->start(); });
@@ -267,8 +312,8 @@ bool CaptureWriter::add(const ViewImage& image) {
     return impl && guarded(&impl->error, [&] { return impl->add(image); });
 }
 
-bool CaptureWriter::finish() {
-    return impl && guarded(&impl->error, [&] { return impl->finish(); });
+bool CaptureWriter::finish(Layers layers, LayerMethod method) {
+    return impl && guarded(&impl->error, [&] { return impl->finish(layers, method); });
 }
 
 const std::string& CaptureWriter::error() const {

@@ -1,5 +1,6 @@
 // Writing a capture: multi-part OpenEXR, one part per view and layer (docs/capture-format.md).
 #pragma once
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,36 +10,48 @@
 
 namespace glcast {
 
-inline constexpr int capture_format_version = 1;
+inline constexpr int capture_format_version = 2;
 
 /// What is true of the whole capture; in the header of every part.
 struct CaptureInfo {
     int n = 0;
     Box box;
     glm::dmat4 eye_to_capture{1.0};
-    std::string program;       ///< file name of the host program
-    long frame = 0;            ///< number of the frame, from 1
-    std::string renderer;      ///< GL_RENDERER
-    std::string normals;       ///< "signed" or "six"
+    std::string program;  ///< file name of the host program
+    long frame = 0;       ///< number of the frame, from 1
+    std::string renderer; ///< GL_RENDERER
+    std::string normals;  ///< "signed" or "six"
     std::string glcast_version;
     std::map<std::string, long> not_understood; ///< entry point or reason -> how often
+
+    /// Known when all images are made: CaptureWriter::finish() sets them.
+    Layers layers = Layers::outer;
+    LayerMethod layer_method = LayerMethod::none;
+    std::array<int, 3> layer_count{1, 1, 1}; ///< parts -a.0, -a.1, ... of each axis
 };
 
 /// "+x.0": side, axis, layer.
 std::string part_name(const View& view);
 
+/// "outer", "incomplete", "complete"; "none", "peel", "slab": as the file spells them.
+const char* layers_name(Layers layers);
+const char* layer_method_name(LayerMethod method);
+
 /// Writes to a temporary name beside `path` and renames in finish(); without finish() nothing is left.
 /// Each part is compressed as it is added, so at most one part is held uncompressed. Never throws.
 class CaptureWriter {
   public:
-    /// `parts`: how many images will be added. Check error() after.
-    CaptureWriter(std::string path, const CaptureInfo& info, int parts);
+    /// `most_parts`: how many images there may be. Room is kept for their headers: a hole in the file where
+    /// fewer come. Check error() after.
+    CaptureWriter(std::string path, const CaptureInfo& info, int most_parts);
     ~CaptureWriter();
     CaptureWriter(const CaptureWriter&) = delete;
     CaptureWriter& operator=(const CaptureWriter&) = delete;
 
+    /// In any order, but layer k of an axis after its layer k - 1.
     bool add(const ViewImage& image);
-    bool finish();
+    /// False when one of the six views of layer 0 is missing, or `layers` does not go with what was added.
+    bool finish(Layers layers = Layers::outer, LayerMethod method = LayerMethod::none);
     const std::string& error() const; ///< one line, empty while all is well
 
   private:

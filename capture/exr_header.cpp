@@ -55,6 +55,7 @@ void add_v2f(Bytes& to, std::string_view name, float x, float y) {
     const float value[] = {x, y};
     add(to, name, "v2f", value, sizeof value);
 }
+void add_v3i(Bytes& to, std::string_view name, const int* xyz) { add(to, name, "v3i", xyz, 3 * sizeof *xyz); }
 void add_v3d(Bytes& to, std::string_view name, const double* xyz) {
     add(to, name, "v3d", xyz, 3 * sizeof *xyz);
 }

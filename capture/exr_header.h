@@ -30,6 +30,7 @@ void add_double(Bytes& to, std::string_view name, double value);
 void add_string(Bytes& to, std::string_view name, std::string_view value);
 void add_strings(Bytes& to, std::string_view name, const std::vector<std::string>& values);
 void add_v2f(Bytes& to, std::string_view name, float x, float y);
+void add_v3i(Bytes& to, std::string_view name, const int* xyz);
 void add_v3d(Bytes& to, std::string_view name, const double* xyz);
 void add_m44d(Bytes& to, std::string_view name, const double* rows); ///< 16 values
 void add_box2i(Bytes& to, std::string_view name, int x0, int y0, int x1, int y1);

@@ -22,12 +22,32 @@ enum class Side { minus = 0, plus = 1 };
 struct View {
     Axis axis = Axis::z;
     Side side = Side::plus;
-    int layer = 0; ///< 0 is what is seen from outside
+    /// 0 is what is seen from outside. Layers 1, 2, ... of `minus` are the hits strictly between the first
+    /// (`minus`, layer 0) and the last (`plus`, layer 0) in order of growing depth; `plus` has none but layer
+    /// 0.
+    int layer = 0;
 
     bool operator==(const View&) const = default;
 };
 
-/// The two image axes of a view, column (u) first: x: (y, z), y: (x, z), z: (x, y). The depth axis is the view's.
+/// What is known of the hits between the first and the last of each ray.
+enum class Layers {
+    outer,      ///< nothing: only layer 0
+    incomplete, ///< some of them
+    complete,   ///< all of them, along all three axes
+};
+
+/// How layers beyond the first were found.
+enum class LayerMethod {
+    none, ///< they were not looked for
+    peel, ///< per pixel, by a fragment shader
+    slab, ///< by clip planes, a slab of the box at a time
+};
+
+inline constexpr int max_layers = 256; ///< parts of one axis and one side
+
+/// The two image axes of a view, column (u) first: x: (y, z), y: (x, z), z: (x, y). The depth axis is the
+/// view's.
 struct ImageAxes {
     int u, v, depth;
 };
@@ -36,8 +56,9 @@ constexpr ImageAxes image_axes(Axis axis) {
     return table[static_cast<int>(axis)];
 }
 
-/// P' of the design: capture frame -> clip space for all views along an axis. Column u of the image grows with
-/// axis u, row v with axis v, and depth 0..1 runs through the box along +axis on both sides (no 180 degree turn).
+/// P' of the design: capture frame -> clip space for all views along an axis. Column u of the image grows
+/// with axis u, row v with axis v, and depth 0..1 runs through the box along +axis on both sides (no 180
+/// degree turn).
 glm::dmat4 lattice_projection(const Box& box, Axis axis);
 
 /// Position in the capture frame of pixel (i, j) of an n x n image at `depth` in 0..1.

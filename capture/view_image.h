@@ -12,9 +12,10 @@ namespace glcast {
 struct ViewImage {
     View view;
     int n = 0;
-    std::vector<float> depth;       ///< 0..1 through the box along +axis; `background(side)` where nothing was drawn
-    std::vector<glm::vec4> colour;  ///< as drawn, 0..1, not converted; a = 1 where something was drawn, else 0
-    std::vector<glm::vec4> normal;  ///< capture frame, as drawn (any length); w = 1 where there is one, else 0
+    std::vector<float>
+        depth; ///< 0..1 through the box along +axis; `background(side)` where nothing was drawn
+    std::vector<glm::vec4> colour; ///< as drawn, 0..1, not converted; a = 1 where something was drawn, else 0
+    std::vector<glm::vec4> normal; ///< capture frame, as drawn (any length); w = 1 where there is one, else 0
 
     /// Depth of a pixel that nothing covers: 1 seen from minus, 0 seen from plus.
     static constexpr float background(Side side) { return side == Side::minus ? 1.0f : 0.0f; }

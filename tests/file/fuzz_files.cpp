@@ -65,7 +65,7 @@ int refusals(const Folder& folder, const std::string& whole, const char* name, i
 
 TEST(Fuzz, FlippedBytesInACapture) {
     const Folder folder;
-    ASSERT_EQ(write_sphere(folder / "whole.exr", 16), "");
+    ASSERT_EQ(write_nested(folder / "whole.exr", 16), "");
     const std::string whole = read_text(folder / "whole.exr");
     const MemoryLimit limit;
     const int refused =

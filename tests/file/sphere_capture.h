@@ -22,9 +22,9 @@ inline CaptureInfo sphere_info(int n) {
     return info;
 }
 
-/// A sphere of radius 0.4 of the box in its centre, with colours that change from pixel to pixel as textures
-/// do.
-inline ViewImage sphere_view(int n, Axis axis, Side side) {
+/// A sphere of that radius (of the box) in the box's centre, with colours that change from pixel to pixel as
+/// textures do.
+inline ViewImage sphere_view(int n, Axis axis, Side side, double radius = 0.4) {
     ViewImage image;
     image.view = {axis, side, 0};
     image.n = n;
@@ -33,7 +33,7 @@ inline ViewImage sphere_view(int n, Axis axis, Side side) {
     image.colour.assign(pixels, glm::vec4(0));
     image.normal.assign(pixels, glm::vec4(0));
     const ImageAxes axes = image_axes(axis);
-    const double sign = side == Side::minus ? -1 : 1, radius = 0.4;
+    const double sign = side == Side::minus ? -1 : 1;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
             const double u = (i + 0.5) / n - 0.5, v = (j + 0.5) / n - 0.5,
@@ -58,6 +58,41 @@ inline const std::vector<View>& six_views() {
                                             {Axis::y, Side::minus}, {Axis::y, Side::plus},
                                             {Axis::z, Side::minus}, {Axis::z, Side::plus}};
     return views;
+}
+
+/// The hits of a ray with three spheres one in the other, layer k of `minus`: 1 and 2 enter, 3 and 4 leave.
+inline ViewImage inner_view(int n, Axis axis, int layer) {
+    const bool enters = layer <= 2;
+    ViewImage image =
+        sphere_view(n, axis, enters ? Side::minus : Side::plus, layer == 1 || layer == 4 ? 0.3 : 0.2);
+    const ViewImage outer = sphere_view(n, axis, Side::minus, 0.3),
+                    inner = sphere_view(n, axis, Side::minus, 0.2);
+    image.view = {axis, Side::minus, layer};
+    for (std::size_t p = 0; p < image.depth.size(); ++p) {
+        // Beside the innermost sphere the second inner hit is the way out of the middle one.
+        if (layer == 2 && !inner.covered(p) && outer.covered(p)) {
+            const ViewImage& way_out = outer;
+            image.depth[p] = 1 - way_out.depth[p];
+            image.colour[p] = way_out.colour[p];
+            image.normal[p] = glm::vec4(0);
+        }
+        if (layer == 4 && !inner.covered(p)) image.colour[p] = glm::vec4(0);
+        if (image.colour[p].a == 0) image.depth[p] = 1, image.colour[p] = image.normal[p] = glm::vec4(0);
+    }
+    return image;
+}
+
+/// Writes all six views and four layers of three nested spheres; the error as below.
+inline std::string write_nested(const std::string& path, int n) {
+    CaptureWriter writer(path, sphere_info(n), 6 + 3 * 31);
+    for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        for (Side side : {Side::minus, Side::plus})
+            if (!writer.add(sphere_view(n, axis, side))) return writer.error();
+        for (int layer = 1; layer <= 4; ++layer)
+            if (!writer.add(inner_view(n, axis, layer))) return writer.error();
+    }
+    writer.finish(Layers::complete, LayerMethod::peel);
+    return writer.error();
 }
 
 /// Writes all six views; the writer's error, empty when all went well.

@@ -110,17 +110,113 @@ TEST(CaptureFile, WhatGlMayLeaveOddIsMadePlain) {
     EXPECT_EQ(image.normal[4].w, 0);
 }
 
-TEST(CaptureFile, LayersAndManyPartsHaveRoom) {
+TEST(CaptureFile, LayersRoundTrip) {
     const Folder folder;
-    CaptureWriter writer(folder / "layers.exr", sphere_info(8), 6 * 12);
-    for (const View& view : six_views())
-        for (int layer = 0; layer < 12; ++layer) {
-            ViewImage image = sphere_view(8, view.axis, view.side);
-            image.view.layer = layer;
+    ASSERT_EQ(write_nested(folder / "nested.exr", 33), "");
+    const Capture capture = read_capture(folder / "nested.exr");
+    EXPECT_EQ(capture.info.layers, Layers::complete);
+    EXPECT_EQ(capture.info.layer_method, LayerMethod::peel);
+    EXPECT_EQ(capture.info.layer_count, (std::array<int, 3>{5, 5, 5}));
+    ASSERT_EQ(capture.images.size(), 18u);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int layer = 1; layer <= 4; ++layer) {
+            const ViewImage wanted = inner_view(33, Axis(axis), layer);
+            const ViewImage& image = view_of(capture, wanted.view);
+            EXPECT_EQ(image.depth, wanted.depth);
+            EXPECT_GT(std::count(image.depth.begin(), image.depth.end(), 1.0f), 0);
+        }
+}
+
+TEST(CaptureFile, PartsComeOneByOneInOrder) {
+    const Folder folder;
+    ASSERT_EQ(write_nested(folder / "nested.exr", 16), "");
+    std::string order;
+    const CaptureInfo info = read_capture(folder / "nested.exr", [&](ViewImage&& image) {
+        order += part_name(image.view) + " ";
+        EXPECT_EQ(image.depth.size(), 256u);
+    });
+    EXPECT_EQ(order,
+              "-x.0 +x.0 -x.1 -x.2 -x.3 -x.4 -y.0 +y.0 -y.1 -y.2 -y.3 -y.4 -z.0 +z.0 -z.1 -z.2 -z.3 -z.4 ");
+    EXPECT_EQ(info.layers, Layers::complete);
+    EXPECT_EQ(read_capture_info(folder / "nested.exr").layer_count, info.layer_count);
+}
+
+TEST(CaptureFile, RoomForTheMostLayersThatMayCome) {
+    const Folder folder;
+    const CaptureInfo info = sphere_info(8);
+    CaptureWriter writer(folder / "many.exr", info, 3 * (max_layers + 1));
+    for (int axis = 0; axis < 3; ++axis) {
+        ViewImage image = sphere_view(8, Axis(axis), Side::plus);
+        ASSERT_TRUE(writer.add(image));
+        image.view.side = Side::minus;
+        for (image.view.layer = 0; image.view.layer < max_layers; ++image.view.layer) {
+            const bool outer = image.view.layer == 0;
+            image.depth.assign(64, outer ? 0 : image.view.layer / 1000.0f);
+            image.depth.resize(32), image.depth.resize(64, 1.0f);
+            for (int p = 0; p < 64; ++p) image.colour[p] = glm::vec4(p < 32);
+            image.normal.assign(64, glm::vec4(0));
             ASSERT_TRUE(writer.add(image)) << writer.error();
         }
-    ASSERT_TRUE(writer.finish()) << writer.error();
-    EXPECT_EQ(read_capture(folder / "layers.exr").images.size(), 72u);
+    }
+    EXPECT_TRUE(writer.finish(Layers::incomplete, LayerMethod::slab)) << writer.error();
+    // The last hits of these pixels are those of a sphere: most layers lie behind them.
+    EXPECT_NE(why_refused(folder / "many.exr").find("does not lie between"), std::string::npos);
+    EXPECT_EQ(read_capture_info(folder / "many.exr").layer_count[2], max_layers);
+}
+
+/// A capture whose pixels are all hit first at 1/8 and last at 7/8, with layers at the depths given.
+std::string write_flat(const std::filesystem::path& path, const std::vector<std::vector<float>>& layers) {
+    CaptureWriter writer(path, sphere_info(8), 6 + int(layers.size()));
+    ViewImage image = sphere_view(8, Axis::x, Side::minus);
+    image.colour.assign(64, glm::vec4(1));
+    image.normal.assign(64, glm::vec4(0));
+    for (const View& view : six_views()) {
+        image.view = view;
+        image.depth.assign(64, view.side == Side::minus ? 0.125f : 0.875f);
+        writer.add(image);
+    }
+    image.view = {Axis::y, Side::minus, 0};
+    for (const std::vector<float>& depths : layers) {
+        ++image.view.layer;
+        for (std::size_t p = 0; p < 64; ++p) {
+            image.depth[p] = depths[p % depths.size()];
+            image.colour[p] = glm::vec4(image.depth[p] < 1);
+        }
+        writer.add(image);
+    }
+    writer.finish(layers.empty() ? Layers::outer : Layers::complete,
+                  layers.empty() ? LayerMethod::none : LayerMethod::peel);
+    return writer.error();
+}
+
+TEST(CaptureFile, LayersOfAPixelMustGrowBetweenFirstAndLast) {
+    const Folder folder;
+    const auto why = [&](const std::vector<std::vector<float>>& layers) {
+        EXPECT_EQ(write_flat(folder / "flat.exr", layers), "");
+        return why_refused(folder / "flat.exr");
+    };
+    EXPECT_EQ(why({}), "");
+    EXPECT_EQ(why({{0.25f, 1}, {0.5f, 1}}), "");
+    EXPECT_EQ(why({{0.5f}, {0.75f, 1, 1}}), "");
+    for (const auto& layers :
+         std::vector<std::vector<std::vector<float>>>{{{0.125f}},            // the first hit again
+                                                      {{0.875f}},            // the last
+                                                      {{0.0625f}},           // in front of the first
+                                                      {{0.9375f}},           // behind the last
+                                                      {{0.5f}, {0.5f}},      // twice
+                                                      {{0.5f}, {0.25f}},     // in the wrong order
+                                                      {{0.5f, 1}, {0.75f}}}) // a layer left out
+        EXPECT_NE(why(layers).find("does not lie between the layers around it"), std::string::npos);
+}
+
+TEST(CaptureFile, FilesOfFormat1AreRead) {
+    const Capture capture = read_capture(GLCAST_TEST_FILES "/format1.exr");
+    EXPECT_EQ(capture.info.layers, Layers::outer);
+    EXPECT_EQ(capture.info.layer_method, LayerMethod::none);
+    EXPECT_EQ(capture.info.layer_count, (std::array<int, 3>{1, 1, 1}));
+    ASSERT_EQ(capture.images.size(), 6u);
+    for (const View& view : six_views())
+        EXPECT_EQ(view_of(capture, view).depth, sphere_view(8, view.axis, view.side).depth);
 }
 
 TEST(CaptureFile, WriterRefusesAndLeavesNothing) {
@@ -142,10 +238,26 @@ TEST(CaptureFile, WriterRefusesAndLeavesNothing) {
     refused(sphere_info(7), 6, {}, "8 to 8192");
     refused(sphere_info(8193), 6, {}, "8 to 8192");
     refused(flat, 6, {}, "box");
-    refused(sphere_info(8), 0, {}, "at least one");
-    refused(sphere_info(8), 6, {image}, "1 of 6");
+    refused(sphere_info(8), 5, {}, "six views");
+    refused(sphere_info(8), 100000, {}, "too many");
+    refused(sphere_info(8), 6, {image}, "view +x.0 is missing");
     refused(sphere_info(8), 6, {image, image}, "twice");
-    refused(sphere_info(8), 1, {image, sphere_view(8, Axis::y, Side::minus)}, "more views");
+    const auto layer = [&](Side side, int number) {
+        ViewImage deeper = image;
+        deeper.view = {Axis::x, side, number};
+        return deeper;
+    };
+    refused(sphere_info(8), 9, {image, layer(Side::minus, 2)}, "-x.2 comes before -x.1");
+    refused(sphere_info(8), 9, {image, layer(Side::plus, 1)}, "no layer +x.1");
+    refused(sphere_info(8), 9, {image, layer(Side::minus, -1)}, "no layer");
+    std::vector<ViewImage> seven{layer(Side::minus, 0), layer(Side::minus, 1), layer(Side::minus, 2),
+                                 layer(Side::minus, 3), layer(Side::minus, 4), layer(Side::minus, 5),
+                                 layer(Side::minus, 6)};
+    refused(sphere_info(8), 6, seven, "more views");
+    std::vector<ViewImage> six_and_one;
+    for (const View& view : six_views()) six_and_one.push_back(sphere_view(8, view.axis, view.side));
+    six_and_one.push_back(layer(Side::minus, 1));
+    refused(sphere_info(8), 7, six_and_one, "does not go with them"); // finished without a word on layers
     refused(sphere_info(16), 6, {image}, "wrong size");
 }
 
@@ -190,10 +302,13 @@ TEST(CaptureFile, DiskFull) {
 
 TEST(CaptureFile, EveryTruncationIsRefused) {
     const Folder folder;
-    ASSERT_EQ(write_sphere(folder / "whole.exr", 8), "");
+    ASSERT_EQ(write_nested(folder / "whole.exr", 8), "");
     const std::string whole = read_text(folder / "whole.exr");
-    for (std::size_t length = 0; length < whole.size(); ++length) {
-        write_text(folder / "cut.exr", whole.substr(0, length));
+    write_text(folder / "cut.exr", whole);
+    // Every byte of the headers and of the last chunks; the hole between, and the other chunks, in steps.
+    const auto step = [&](std::size_t at) { return at < 4096 || at + 4096 > whole.size() ? 1 : 41; };
+    for (long length = long(whole.size()) - 1; length >= 0; length -= step(length)) {
+        std::filesystem::resize_file(folder / "cut.exr", length);
         ASSERT_NE(why_refused(folder / "cut.exr"), "") << length << " of " << whole.size();
     }
     write_text(folder / "cut.exr", whole + "x");
@@ -215,22 +330,13 @@ TEST(CaptureFile, ForeignAndMissingFilesAreRefused) {
     EXPECT_FALSE(looks_like_exr(folder / "empty.exr"));
 }
 
-TEST(CaptureFile, AMissingViewIsRefused) {
-    const Folder folder;
-    CaptureWriter writer(folder / "five.exr", sphere_info(8), 5);
-    for (int k = 0; k < 5; ++k)
-        ASSERT_TRUE(writer.add(sphere_view(8, six_views()[k].axis, six_views()[k].side)));
-    ASSERT_TRUE(writer.finish());
-    EXPECT_NE(why_refused(folder / "five.exr").find("view +z.0 is missing"), std::string::npos);
-}
-
 TEST(CaptureFile, ANewerFormatSaysSo) {
     const Folder folder;
     ASSERT_EQ(write_sphere(folder / "new.exr", 8), "");
     std::string bytes = read_text(folder / "new.exr");
     const std::string name("glcast.format\0int\0\4\0\0\0", 22);
     for (std::size_t at = bytes.find(name); at != std::string::npos; at = bytes.find(name, at + 1))
-        bytes[at + name.size()] = 2;
+        bytes[at + name.size()] = 3;
     write_text(folder / "new.exr", bytes);
     EXPECT_NE(why_refused(folder / "new.exr").find("newer glcast"), std::string::npos);
 }
@@ -245,7 +351,7 @@ TEST(CaptureFileTools, ExrheaderShowsNamesChannelsAndAttributes) {
     for (const char* text :
          {"\"-x.0\"", "\"+x.0\"", "\"-y.0\"", "\"+y.0\"", "\"-z.0\"", "\"+z.0\"", "Z, 32-bit floating-point",
           "A, 16-bit floating-point", "N.X, 32-bit floating-point", "glcast.boxLo", "glcast.eyeToCapture",
-          "glcast.program (type string): \"sphere\"", "glcast.format (type int): 1", "glcast.notUnderstood",
+          "glcast.program (type string): \"sphere\"", "glcast.format (type int): 2", "glcast.notUnderstood",
           "zip, multi-scanline blocks"})
         EXPECT_NE(ran.output.find(text), std::string::npos) << text << "\n" << ran.output;
 }
@@ -272,4 +378,9 @@ TEST(CaptureFileTools, ExrinfoAndExrmultipartOpenIt) {
     ASSERT_EQ(joined.status, 0) << joined.output;
     EXPECT_EQ(read_capture(folder / "back.exr").images.size(), 6u)
         << "written by OpenEXR itself, and still a capture";
+    const std::string five = "part.1.exr part.2.exr part.3.exr part.4.exr part.5.exr";
+    ASSERT_EQ(
+        run("cd " + folder.path().string() + " && exrmultipart -combine -i " + five + " -o five.exr").status,
+        0);
+    EXPECT_NE(why_refused(folder / "five.exr").find("view +z.0 is missing"), std::string::npos);
 }

@@ -32,14 +32,16 @@ Json describe_part(const ViewImage& image) {
             {"pixelsWithNormal", with_normal}};
 }
 
-Json describe_capture(const Options& options, const Capture& capture) {
-    const CaptureInfo& info = capture.info;
+Json describe_capture(const Options& options) {
+    Json parts; // one image in memory at a time
+    const CaptureInfo info =
+        read_capture(options.file, [&](ViewImage&& image) { parts.push_back(describe_part(image)); });
     Json matrix = Json::array();
     for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 4; ++c) matrix.push_back(info.eye_to_capture[c][r]);
     Json json = {{"file", options.file},
                  {"kind", "capture"},
-                 {"bytes", capture.file_bytes},
+                 {"bytes", std::filesystem::file_size(options.file)},
                  {"n", info.n},
                  {"box", {{"lo", vector_json(info.box.lo)}, {"size", info.box.size}}},
                  {"sample", info.box.size / info.n},
@@ -49,9 +51,13 @@ Json describe_capture(const Options& options, const Capture& capture) {
                  {"renderer", info.renderer},
                  {"normals", info.normals},
                  {"glcastVersion", info.glcast_version},
+                 {"layers",
+                  {{"state", layers_name(info.layers)},
+                   {"method", layer_method_name(info.layer_method)},
+                   {"count", info.layer_count}}},
                  {"notUnderstood", Json::object()}};
     for (const auto& [what, count] : info.not_understood) json["notUnderstood"][what] = count;
-    for (const ViewImage& image : capture.images) json["parts"].push_back(describe_part(image));
+    json["parts"] = parts;
     return json;
 }
 
@@ -69,6 +75,17 @@ Json describe_level(const Level& level, const MeshCheck& check) {
     return json;
 }
 
+void print_layers(const Json& layers) {
+    if (layers["state"] == "outer") {
+        std::printf("layers    the six views from outside only\n");
+        return;
+    }
+    const Json& count = layers["count"];
+    std::printf("layers    x %d, y %d, z %d, %s, by %s\n", count[0].get<int>(), count[1].get<int>(),
+                count[2].get<int>(), layers["state"].get<std::string>().c_str(),
+                layers["method"].get<std::string>().c_str());
+}
+
 void print_capture(const Json& j) {
     const auto& lo = j["box"]["lo"];
     std::printf("capture   %s, %ld bytes, complete\n", j["file"].get<std::string>().c_str(),
@@ -80,6 +97,7 @@ void print_capture(const Json& j) {
                 j["sample"].get<double>());
     std::printf("normals   %s; made by glcast %s\n", j["normals"].get<std::string>().c_str(),
                 j["glcastVersion"].get<std::string>().c_str());
+    print_layers(j["layers"]);
     for (const Json& part : j["parts"])
         std::printf("view %-5s %6.2f %% covered, %ld pixels, %ld of them with a normal\n",
                     part["name"].get<std::string>().c_str(), part["coverage"].get<double>() * 100,
@@ -107,7 +125,7 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
 
 int info(const Options& options) {
     if (looks_like_exr(options.file)) {
-        const Json json = describe_capture(options, read_capture(options.file));
+        const Json json = describe_capture(options);
         options.json ? print_json(json) : print_capture(json);
         return 0;
     }

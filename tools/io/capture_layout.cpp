@@ -16,7 +16,7 @@ namespace glcast {
 namespace {
 
 constexpr std::size_t largest_header =
-    16u << 20; // 192 parts of a few kB each, and thousands of not-understood calls
+    16u << 20; // hundreds of parts of a few kB each, and thousands of not-understood calls
 constexpr std::uint64_t best_ratio = 1100; // deflate makes 1032 bytes of one at most
 constexpr std::uint64_t bytes_per_pixel = 26;
 
@@ -76,13 +76,14 @@ int number(const Header& header, std::string_view name, std::string_view type) {
     return static_cast<int>(exr::read_u32(value.data()));
 }
 
-void check_format(const Header& header) {
+int check_format(const Header& header) {
     if (!header.contains("glcast.format")) refuse("is an OpenEXR file, but no capture of glcast");
     const int format = number(header, "glcast.format", "int");
     if (format > capture_format_version)
         refuse("was made by a newer glcast: its format is " + std::to_string(format) +
                ", this one reads up to " + std::to_string(capture_format_version));
     if (format < 1) refuse("the header is damaged: glcast.format");
+    return format;
 }
 
 void check_window(const Header& header, const char* name, int n) {
@@ -105,8 +106,8 @@ int lines_per_chunk(const Header& header) {
 }
 
 /// Number of chunks of a part, from a header in which everything about size agrees.
-int check_header(const Header& header, int n) {
-    check_format(header);
+int check_header(const Header& header, int n, int format) {
+    if (check_format(header) != format) refuse("its parts differ in format");
     if (number(header, "glcast.n", "int") != n) refuse("its parts differ in n");
     check_window(header, "dataWindow", n);
     check_window(header, "displayWindow", n);
@@ -116,10 +117,12 @@ int check_header(const Header& header, int n) {
     return chunks;
 }
 
-void check_chunks(File& file, const std::vector<Header>& headers, int n, std::uint64_t tables_at) {
+void check_chunks(File& file, const std::vector<Header>& headers, const CaptureLayout& layout,
+                  std::uint64_t tables_at) {
     std::vector<int> chunks;
     std::uint64_t total = 0;
-    for (const Header& header : headers) total += chunks.emplace_back(check_header(header, n));
+    for (const Header& header : headers)
+        total += chunks.emplace_back(check_header(header, layout.n, layout.format));
     const std::uint64_t data_at = tables_at + total * 8;
     if (data_at > file.size) refuse("the file is truncated");
     const std::vector<char> tables = file.read(tables_at, total * 8);
@@ -155,15 +158,18 @@ CaptureLayout check_capture_layout(const std::filesystem::path& path) {
     std::size_t tables_at = 0;
     const std::vector<Header> headers = walk_headers(front, tables_at);
     if (headers.empty()) refuse("has no parts");
-    check_format(headers[0]);
-    CaptureLayout layout{number(headers[0], "glcast.n", "int"), static_cast<int>(headers.size()), file.size};
+    CaptureLayout layout;
+    layout.format = check_format(headers[0]);
+    layout.n = number(headers[0], "glcast.n", "int");
+    layout.parts = static_cast<int>(headers.size());
+    layout.file_bytes = file.size;
     if (layout.n < min_resolution || layout.n > max_resolution)
         refuse("its n is " + std::to_string(layout.n) + ", not " + std::to_string(min_resolution) + " to " +
                std::to_string(max_resolution));
     const std::uint64_t pixels = std::uint64_t(layout.n) * layout.n * headers.size();
     if (pixels * bytes_per_pixel / best_ratio > file.size)
         refuse("the file is truncated: too short for its n");
-    check_chunks(file, headers, layout.n, tables_at);
+    check_chunks(file, headers, layout, tables_at);
     return layout;
 }
 

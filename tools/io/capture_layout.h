@@ -6,7 +6,7 @@
 namespace glcast {
 
 struct CaptureLayout {
-    int n = 0, parts = 0;
+    int n = 0, parts = 0, format = 0;
     std::uint64_t file_bytes = 0;
 };
 

@@ -16,6 +16,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
@@ -45,6 +46,25 @@ std::map<std::string, long> read_counts(const std::vector<std::string>& lines) {
     return counts;
 }
 
+template <class Kind>
+Kind named(const std::string& name, const char* (*name_of)(Kind), const char* attribute) {
+    for (int k = 0; k < 3; ++k)
+        if (name == name_of(static_cast<Kind>(k))) return static_cast<Kind>(k);
+    refuse(std::string("the header is damaged: ") + attribute);
+}
+
+/// Format 1 has no layers but the first.
+void read_layers(const Imf::Header& header, CaptureInfo& info) {
+    if (value<Imf::IntAttribute>(header, "glcast.format") < 2) return;
+    info.layers = named(value<Imf::StringAttribute>(header, "glcast.layers"), layers_name, "glcast.layers");
+    info.layer_method = named(value<Imf::StringAttribute>(header, "glcast.layerMethod"), layer_method_name,
+                              "glcast.layerMethod");
+    const Imath::V3i& count = value<Imf::V3iAttribute>(header, "glcast.layerCount");
+    info.layer_count = {count.x, count.y, count.z};
+    const bool looked = info.layer_method != LayerMethod::none;
+    if (looked != (info.layers != Layers::outer)) refuse("the header is damaged: glcast.layers");
+}
+
 CaptureInfo read_info(const Imf::Header& header) {
     CaptureInfo info;
     info.n = value<Imf::IntAttribute>(header, "glcast.n");
@@ -66,6 +86,7 @@ CaptureInfo read_info(const Imf::Header& header) {
     info.normals = value<Imf::StringAttribute>(header, "glcast.normals");
     info.glcast_version = value<Imf::StringAttribute>(header, "glcast.version");
     info.not_understood = read_counts(value<Imf::StringVectorAttribute>(header, "glcast.notUnderstood"));
+    read_layers(header, info);
     return info;
 }
 
@@ -76,7 +97,8 @@ View read_view(const Imf::Header& header) {
     if (index == std::string::npos || (side != "-" && side != "+")) refuse("the header is damaged: view");
     const View view{static_cast<Axis>(index), side == "-" ? Side::minus : Side::plus,
                     value<Imf::IntAttribute>(header, "glcast.layer")};
-    if (view.layer < 0 || header.name() != part_name(view)) refuse("the header is damaged: view");
+    if (view.layer < 0 || view.layer >= max_layers || header.name() != part_name(view))
+        refuse("the header is damaged: view");
     return view;
 }
 
@@ -140,8 +162,9 @@ ViewImage read_part(Imf::MultiPartInputFile& file, int part, const CaptureInfo& 
     const Imf::Header& header = file.header(part);
     const CaptureInfo same = read_info(header);
     if (same.n != info.n || same.box.lo != info.box.lo || same.box.size != info.box.size ||
-        same.eye_to_capture != info.eye_to_capture)
-        refuse("its parts differ in box or frame");
+        same.eye_to_capture != info.eye_to_capture || same.layers != info.layers ||
+        same.layer_method != info.layer_method || same.layer_count != info.layer_count)
+        refuse("its parts differ in box, frame or layers");
     ViewImage image;
     image.view = read_view(header);
     image.n = info.n;
@@ -154,31 +177,91 @@ ViewImage read_part(Imf::MultiPartInputFile& file, int part, const CaptureInfo& 
     return image;
 }
 
-void check_views(const std::vector<ViewImage>& images) {
-    for (Axis axis : {Axis::x, Axis::y, Axis::z})
-        for (Side side : {Side::minus, Side::plus}) {
-            const View wanted{axis, side, 0};
-            const auto is = [&](const ViewImage& image) { return image.view == wanted; };
-            if (std::none_of(images.begin(), images.end(), is))
-                refuse("view " + part_name(wanted) + " is missing");
-        }
-}
+/// The part of each view: views[axis][0] is +a.0, views[axis][1 + k] is -a.k.
+using PartIndex = std::array<std::vector<int>, 3>;
 
-Capture read(const std::filesystem::path& path) {
-    const CaptureLayout layout = check_capture_layout(path);
-    Imf::MultiPartInputFile file(path.c_str(), 0, false); // no threads, and no guessing of lost chunk tables
-    Capture capture;
-    capture.file_bytes = layout.file_bytes;
-    capture.info = read_info(file.header(0));
+std::size_t slot_of(const View& view) { return view.side == Side::plus ? 0 : 1 + std::size_t(view.layer); }
+
+PartIndex index_parts(Imf::MultiPartInputFile& file, const CaptureInfo& info) {
+    PartIndex index;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int count = info.layer_count[axis];
+        if (count < 1 || count > max_layers) refuse("the header is damaged: glcast.layerCount");
+        index[axis].assign(1 + std::size_t(count), -1);
+    }
     for (int part = 0; part < file.parts(); ++part) {
         if (!file.partComplete(part)) refuse("the file is truncated");
-        capture.images.push_back(read_part(file, part, capture.info));
-        for (std::size_t other = 0; other + 1 < capture.images.size(); ++other)
-            if (capture.images[other].view == capture.images.back().view)
-                refuse("view " + part_name(capture.images[other].view) + " is there twice");
+        const View view = read_view(file.header(part));
+        std::vector<int>& parts = index[static_cast<int>(view.axis)];
+        const std::size_t slot = slot_of(view);
+        if (slot >= parts.size() || (view.side == Side::plus && view.layer > 0))
+            refuse("view " + part_name(view) + " is not among the layers of the header");
+        if (parts[slot] >= 0) refuse("view " + part_name(view) + " is there twice");
+        parts[slot] = part;
     }
-    check_views(capture.images);
-    return capture;
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t slot = 0; slot < index[axis].size(); ++slot) {
+            const View view = slot == 0 ? View{Axis(axis), Side::plus, 0}
+                                        : View{Axis(axis), Side::minus, static_cast<int>(slot) - 1};
+            if (index[axis][slot] < 0) refuse("view " + part_name(view) + " is missing");
+        }
+    return index;
+}
+
+/// Layers of a pixel come in growing depth, strictly between its first hit and its last, none left out.
+class LayerOrder {
+  public:
+    explicit LayerOrder(bool has_layers) : has_layers(has_layers) {}
+
+    void check(const ViewImage& image) {
+        if (!has_layers) return;
+        if (image.view.layer > 0) return follow(image);
+        std::vector<float>& depth = image.view.side == Side::minus ? previous : last;
+        depth = image.depth;
+        for (std::size_t p = 0; p < depth.size(); ++p)
+            if (!image.covered(p)) depth[p] = image.view.side == Side::minus ? none : -none;
+    }
+
+  private:
+    static constexpr float none = 2;
+
+    void follow(const ViewImage& image) {
+        for (std::size_t p = 0; p < previous.size(); ++p) {
+            if (!image.covered(p))
+                previous[p] = none;
+            else if (image.depth[p] > previous[p] && image.depth[p] < last[p])
+                previous[p] = image.depth[p];
+            else
+                refuse("part " + part_name(image.view) + " does not lie between the layers around it");
+        }
+    }
+
+    const bool has_layers;
+    std::vector<float> previous, last;
+};
+
+struct OpenCapture {
+    CaptureLayout layout; ///< checked first, before OpenEXR sees the file
+    Imf::MultiPartInputFile file;
+    CaptureInfo info;
+    PartIndex parts;
+
+    explicit OpenCapture(const std::filesystem::path& path)
+        : layout(check_capture_layout(path)),
+          file(path.c_str(), 0, false), // no threads, and no guessing of lost chunk tables
+          info(read_info(file.header(0))), parts(index_parts(file, info)) {}
+};
+
+void read_parts(OpenCapture& capture, const PartSink& sink) {
+    for (std::vector<int>& parts : capture.parts) {
+        std::swap(parts[0], parts[1]); // -a.0 before +a.0
+        LayerOrder order(parts.size() > 2);
+        for (const int part : parts) {
+            ViewImage image = read_part(capture.file, part, capture.info);
+            order.check(image);
+            sink(std::move(image));
+        }
+    }
 }
 
 /// What a library says, on one line.
@@ -188,14 +271,37 @@ std::string one_line(std::string text) {
     return text;
 }
 
-} // namespace
-
-Capture read_capture(const std::filesystem::path& path) {
+template <class Read> auto with_file_name(const std::filesystem::path& path, Read&& read) {
     try {
-        return read(path);
+        return read();
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read capture '" + path.string() + "': " + one_line(e.what()));
     }
+}
+
+} // namespace
+
+CaptureInfo read_capture_info(const std::filesystem::path& path) {
+    return with_file_name(path, [&] { return OpenCapture(path).info; });
+}
+
+CaptureInfo read_capture(const std::filesystem::path& path, const PartSink& sink) {
+    return with_file_name(path, [&] {
+        OpenCapture capture(path);
+        read_parts(capture, sink);
+        return capture.info;
+    });
+}
+
+Capture read_capture(const std::filesystem::path& path) {
+    return with_file_name(path, [&] {
+        OpenCapture file(path);
+        Capture capture;
+        capture.info = file.info;
+        capture.file_bytes = file.layout.file_bytes;
+        read_parts(file, [&](ViewImage&& image) { capture.images.push_back(std::move(image)); });
+        return capture;
+    });
 }
 
 bool looks_like_exr(const std::filesystem::path& path) {
