@@ -2,8 +2,10 @@
 add_library(glcast_engine STATIC
     engine.cpp
     engine_box.cpp
+    engine_layers.cpp
     engine_normal.cpp
     engine_pass.cpp
+    engine_peel.cpp
     engine_target.cpp
     forced_calls.cpp
     forced_caps.cpp

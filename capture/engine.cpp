@@ -1,11 +1,13 @@
 #include "capture/engine.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <glm/glm.hpp>
 #include <memory>
 
 #include "capture/engine_box.h"
+#include "capture/engine_layers.h"
 #include "capture/engine_normal.h"
 #include "capture/engine_pass.h"
 #include "capture/engine_target.h"
@@ -74,18 +76,60 @@ class Capture {
             return;
         }
         report.float_targets = target.float_colour();
-        for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
-            for (Side side : {Side::minus, Side::plus}) {
-                ViewImage image;
-                image.view = {axis, side, 0};
-                image.n = options.n;
-                capture_view(target, image);
-                if (sink(std::move(image))) continue;
-                report.error = "stopped by the receiver of the images";
-                return;
-            }
-        }
+        for (Axis axis : {Axis::x, Axis::y, Axis::z})
+            if (!capture_axis(target, axis)) return;
         if (covered == 0) report.error = "nothing solid was drawn";
+        if (options.most_layers > 1) judge_layers();
+    }
+
+    bool send(ViewImage&& image) {
+        if (sink(std::move(image))) return true;
+        report.error = "stopped by the receiver of the images";
+        return false;
+    }
+
+    bool capture_axis(const Target& target, Axis axis) {
+        OuterHits hits;
+        for (Side side : {Side::minus, Side::plus}) {
+            ViewImage image;
+            image.view = {axis, side, 0};
+            image.n = options.n;
+            capture_view(target, image);
+            if (options.most_layers > 1) (side == Side::minus ? hits.first : hits.last) = image.depth;
+            if (!send(std::move(image))) return false;
+        }
+        return options.most_layers <= 1 || capture_layers(target, axis, std::move(hits));
+    }
+
+    /// False when the receiver stopped.
+    bool capture_layers(const Target& target, Axis axis, OuterHits&& hits) {
+        const auto start = Clock::now();
+        const int draws_before = passes.draws();
+        const AxisLayers layers = find_layers(target, axis, std::move(hits));
+        report.layer_count[static_cast<int>(axis)] = layers.count;
+        report.axis_complete[static_cast<int>(axis)] = layers.complete;
+        report.layer_draws += passes.draws() - draws_before;
+        report.layer_seconds += seconds_since(start);
+        return !layers.stopped;
+    }
+
+    AxisLayers find_layers(const Target& target, Axis axis, OuterHits&& hits) {
+        if (nothing_between(hits, options.n)) return {};
+        const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers};
+        const auto layer_sink = [&](ViewImage&& image) {
+            count(image);
+            return send(std::move(image));
+        };
+        if (!shader && options.use_shaders) shader = PeelShader::make(gl, options.n);
+        if (!shader) return {.complete = false};
+        return peel_axis(task, *shader, std::move(hits), layer_sink);
+    }
+
+    void judge_layers() {
+        const bool all =
+            std::all_of(report.axis_complete.begin(), report.axis_complete.end(), [](bool b) { return b; });
+        report.layers = all ? Layers::complete : Layers::incomplete;
+        report.layer_method = LayerMethod::peel;
     }
 
     void capture_view(const Target& target, ViewImage& image) {
@@ -129,6 +173,7 @@ class Capture {
     const ImageSink& sink;
     EngineReport& report;
     PassRunner passes;
+    std::unique_ptr<PeelShader> shader;
     long covered = 0;
 };
 

@@ -1,6 +1,7 @@
 // The capture engine: draw a scene under views and lights of our own, and read what was seen.
 // Method: Natvig 2006, "Simplified Mesh Generation from Renders", sections 2-4.
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,6 +33,11 @@ struct EngineOptions {
     bool mirrored_projection = false; ///< the program's own projection mirrors, so its winding is reversed
     /// False: 8-bit colour, ambient 1/2 and lights +-1/2 (also taken when the driver has no float targets).
     bool use_float_targets = true;
+
+    int most_layers = 32; ///< parts of an axis and its minus side, layer 0 counted; 1: only the six views
+    /// How the layers beyond are found. Slabs are taken too where this OpenGL has no fragment shaders.
+    LayerMethod layer_method = LayerMethod::peel;
+    bool use_shaders = true; ///< false: as if this OpenGL had none
 };
 
 struct EngineReport {
@@ -41,10 +47,16 @@ struct EngineReport {
     bool float_targets = false;
     int draws = 0;                  ///< how often the draw function was called
     long pixels_without_normal = 0; ///< covered pixels whose draw was unlit or whose normal pass missed
+    Layers layers = Layers::outer;  ///< complete only if all axes are
+    LayerMethod layer_method = LayerMethod::none;
+    std::array<int, 3> layer_count{1, 1, 1}; ///< of each axis, layer 0 counted
+    std::array<bool, 3> axis_complete{};     ///< no hit of the axis is missing
+    int layer_draws = 0;                     ///< of `draws`, those for layers beyond layer 0
+    double layer_seconds = 0;                ///< all that those layers took, reading and normals too
     double box_seconds = 0, colour_seconds = 0, normal_seconds = 0, read_seconds = 0;
 };
 
-/// Takes each finished image in the order -x +x -y +y -z +z; false stops the capture.
+/// Takes each finished image in the order -x.0 +x.0 -x.1 -x.2 ... -y.0 ...; false stops the capture.
 using ImageSink = std::function<bool(ViewImage&&)>;
 
 /// Capture in the current context. `gl` are its real entry points, compatibility profile, framebuffer objects

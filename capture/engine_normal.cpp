@@ -92,7 +92,8 @@ void capture_normals(PassRunner& passes, const Target& target, const Pass& view,
     pass.kind = PassKind::normal;
     pass.depth = DepthRule::equal;
     paint(passes, target, pass, method, image.normal);
-    if (any_missed(image)) fill_missed(passes, target, pass, method, image);
+    // Before an inner layer lies what is seen from outside, so only layer 0 can be found without equal depth.
+    if (image.view.layer == 0 && any_missed(image)) fill_missed(passes, target, pass, method, image);
     mark_normals(image);
 }
 

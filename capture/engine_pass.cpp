@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "capture/engine_peel.h"
 #include "capture/forced_caps.h"
 #include "capture/forced_table.h"
 
@@ -61,8 +62,8 @@ void reset_drawing_state(const GlTable& gl, const Pass& pass) {
 
 void clear(const GlTable& gl, const Pass& pass) {
     GLbitfield buffers = GL_COLOR_BUFFER_BIT;
-    if (pass.depth == DepthRule::first || pass.depth == DepthRule::missed) buffers |= GL_DEPTH_BUFFER_BIT;
-    if (pass.depth == DepthRule::first || pass.depth == DepthRule::equal) buffers |= GL_STENCIL_BUFFER_BIT;
+    if (pass.depth != DepthRule::equal) buffers |= GL_DEPTH_BUFFER_BIT;
+    if (pass.depth != DepthRule::missed) buffers |= GL_STENCIL_BUFFER_BIT;
     gl.DepthMask(GL_TRUE);
     gl.StencilMask(~0u);
     gl.ClearColor(0, 0, 0, missed_alpha);
@@ -102,6 +103,7 @@ void PassRunner::run(const Pass& pass, const Target& target) {
         ForcedTable forced(gl, pass.kind, mirrored(pass));
         ++draw_count;
         draw(forced.table());
+        own_program |= forced.state.saw_own_program;
     }
     gl.RenderMode(GL_RENDER);
     gl.Finish();
@@ -118,6 +120,7 @@ void PassRunner::set_state(const Pass& pass, const Target& target) const {
     set_lights(pass);
     reset_texture_matrices(gl);
     set_matrices(pass);
+    if (pass.kind == PassKind::peel) pass.shader->use();
     swallow_errors(gl);
 }
 
@@ -126,14 +129,16 @@ void PassRunner::set_depth_rule(const Pass& pass) const {
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(equal ? GL_EQUAL : pass.side == Side::minus ? GL_LESS : GL_GREATER);
     gl.DepthMask(equal ? GL_FALSE : GL_TRUE);
-    set_cap(gl, GL_STENCIL_TEST, equal || missed);
-    gl.StencilFunc(GL_EQUAL, 0, ~0u);
-    gl.StencilOp(GL_KEEP, GL_KEEP, equal ? GL_INCR : GL_KEEP);
+    const bool count = pass.depth == DepthRule::count;
+    set_cap(gl, GL_STENCIL_TEST, equal || missed || count);
+    gl.StencilFunc(count ? GL_ALWAYS : GL_EQUAL, 0, ~0u);
+    gl.StencilOp(GL_KEEP, count ? GL_INCR : GL_KEEP, equal || count ? GL_INCR : GL_KEEP);
 }
 
 void PassRunner::set_matrices(const Pass& pass) const {
     reset_matrix(gl, GL_PROJECTION, GL_PROJECTION_STACK_DEPTH);
-    gl.LoadMatrixd(glm::value_ptr(lattice_projection(pass.box, pass.axis) * eye_to_capture));
+    const glm::dmat4 projection = lattice_slab_projection(pass.box, pass.axis, pass.near, pass.far);
+    gl.LoadMatrixd(glm::value_ptr(projection * eye_to_capture));
     reset_matrix(gl, GL_MODELVIEW, GL_MODELVIEW_STACK_DEPTH);
 }
 

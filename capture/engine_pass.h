@@ -9,6 +9,8 @@
 
 namespace glcast {
 
+class PeelShader;
+
 /// Which fragment of a pixel counts.
 enum class DepthRule {
     first,  ///< clear; the first that the side sees
@@ -16,6 +18,7 @@ enum class DepthRule {
     equal,  ///< the first drawn of those at the depth that is there; writes no depth, marks its pixels in the
             ///< stencil buffer
     missed, ///< as `first`, where `equal` marked nothing
+    count,  ///< as `first`, and every fragment, hidden or not, is counted in the stencil buffer
 };
 
 enum class Lights {
@@ -34,6 +37,8 @@ struct Pass {
     Lights lights = Lights::none;
     int light = 0; ///< for `single`: 2 * axis, + 1 for the light from the negative side
     GLenum polygon_mode = GL_FILL;
+    double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
+    const PeelShader* shader = nullptr; ///< for PassKind::peel
 };
 
 /// Draws passes into targets, and counts them.
@@ -42,6 +47,8 @@ class PassRunner {
     PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
     void run(const Pass& pass, const Target& target);
     int draws() const { return draw_count; }
+    /// A peel pass met draws by programs of the program's own, and left them out.
+    bool saw_own_program() const { return own_program; }
 
   private:
     void set_state(const Pass& pass, const Target& target) const;
@@ -55,6 +62,7 @@ class PassRunner {
     const glm::dmat4 eye_to_capture;
     const bool mirrored_projection;
     int draw_count = 0;
+    bool own_program = false;
 };
 
 } // namespace glcast

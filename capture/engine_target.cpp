@@ -5,8 +5,6 @@
 
 namespace glcast {
 
-namespace {
-
 bool has_extension(const GlTable& gl, const char* name) {
     const auto* all = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
     const std::size_t length = std::strlen(name);
@@ -14,6 +12,8 @@ bool has_extension(const GlTable& gl, const char* name) {
         if ((at == all || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0)) return true;
     return false;
 }
+
+namespace {
 
 /// Signed colours need targets that hold them and clamps that can be switched off.
 bool has_float_targets(const GlTable& gl) {
@@ -32,7 +32,8 @@ void reset_pixel_state(const GlTable& gl) {
     constexpr GLenum biases[] = {GL_RED_BIAS, GL_GREEN_BIAS, GL_BLUE_BIAS, GL_ALPHA_BIAS, GL_DEPTH_BIAS};
     for (GLenum name : scales) gl.PixelTransferf(name, 1);
     for (GLenum name : biases) gl.PixelTransferf(name, 0);
-    gl.PixelTransferi(GL_MAP_COLOR, GL_FALSE);
+    for (GLenum name : {GL_MAP_COLOR, GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET})
+        gl.PixelTransferi(name, 0);
     if (gl.BindBuffer) gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
@@ -94,6 +95,12 @@ void Target::read_colour(std::vector<glm::vec4>& colour) const {
     colour.resize(std::size_t(pixels) * pixels);
     reset_pixel_state(gl);
     gl.ReadPixels(0, 0, pixels, pixels, GL_RGBA, GL_FLOAT, colour.data());
+}
+
+void Target::read_stencil(std::vector<std::uint8_t>& stencil) const {
+    stencil.resize(std::size_t(pixels) * pixels);
+    reset_pixel_state(gl);
+    gl.ReadPixels(0, 0, pixels, pixels, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
 }
 
 GlTable with_framebuffer_calls(GlTable gl) {

@@ -1,5 +1,6 @@
 // The framebuffer that the engine draws into and reads from.
 #pragma once
+#include <cstdint>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -25,6 +26,7 @@ class Target {
     /// size x size values, row 0 is the bottom. Pixel store and transfer state is left at what reading needs.
     void read_depth(std::vector<float>& depth) const;
     void read_colour(std::vector<glm::vec4>& colour) const;
+    void read_stencil(std::vector<std::uint8_t>& stencil) const;
 
   private:
     bool try_formats(GLenum colour_format, GLenum depth_format);
@@ -34,6 +36,9 @@ class Target {
     GLuint framebuffer = 0, colour_buffer = 0, depth_buffer = 0;
     bool framebuffer_complete = false, framebuffer_float = false;
 };
+
+/// GL_EXTENSIONS has it.
+bool has_extension(const GlTable& gl, const char* name);
 
 /// The table with the core names of framebuffer calls filled from EXT_framebuffer_object where a driver has
 /// only those.

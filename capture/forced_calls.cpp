@@ -126,6 +126,19 @@ void APIENTRY draw_buffers(GLsizei count, const GLenum* buffers) {
     state().apply_alpha();
 }
 
+/// Peel passes: our own stays in use, and what another would draw is not drawn.
+void APIENTRY use_program(GLuint program_name) {
+    program().own_program = program_name != 0;
+    state().saw_own_program |= program_name != 0;
+    state().apply_alpha();
+}
+void APIENTRY use_program_object(GLhandleARB program_name) { use_program(program_name != 0); }
+
+/// Peel passes: our shader reads a rectangle texture.
+void APIENTRY bind_texture(GLenum target, GLuint texture) {
+    if (target != GL_TEXTURE_RECTANGLE) real().BindTexture(target, texture);
+}
+
 /// Selection and feedback draw nothing. GL writes the hits to a buffer of ours: the program has had its own
 /// already.
 GLint APIENTRY render_mode(GLenum mode) {

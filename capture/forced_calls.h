@@ -31,6 +31,9 @@ void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum sour
 void APIENTRY colour_mask(GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha);
 void APIENTRY draw_buffer(GLenum buffer);
 void APIENTRY draw_buffers(GLsizei count, const GLenum* buffers);
+void APIENTRY use_program(GLuint program);
+void APIENTRY use_program_object(GLhandleARB program);
+void APIENTRY bind_texture(GLenum target, GLuint texture);
 GLint APIENTRY render_mode(GLenum mode);
 
 } // namespace glcast::forced

@@ -83,7 +83,7 @@ CapPolicy cap_policy(GLenum cap, PassKind kind) {
     const auto* rule =
         std::find_if(std::begin(rules), std::end(rules), [cap](const CapRule& r) { return has(r, cap); });
     if (rule == std::end(rules)) return keep;
-    return kind == PassKind::colour ? rule->colour : rule->normal;
+    return kind == PassKind::normal ? rule->normal : rule->colour;
 }
 
 void reset_caps(const GlTable& gl) {

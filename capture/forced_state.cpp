@@ -64,9 +64,10 @@ void ForcedState::pop() {
 }
 
 void ForcedState::apply_alpha() const {
-    const bool shown = program.mask_shows && program.buffer_shows;
+    const bool shown = program.mask_shows && program.buffer_shows && !program.own_program;
     const bool replaces = program.blend_source == GL_ONE && program.blend_destination == GL_ZERO;
-    const bool keeps_test = kind == PassKind::colour; // the normal pass has equal depth to go by
+    // The normal pass has equal depth to go by; what a peel pass finds is tested by the colour pass after it.
+    const bool keeps_test = kind == PassKind::colour;
     if (!shown) {
         real.AlphaFunc(GL_NEVER, 0);
         real.Enable(GL_ALPHA_TEST);

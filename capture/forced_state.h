@@ -9,6 +9,7 @@ namespace glcast {
 enum class PassKind {
     colour, ///< depth and colour; also what the box is found with
     normal, ///< normals as colours
+    peel,   ///< depth alone, by a fragment shader of ours (engine_peel.h)
 };
 
 /// Alpha that the normal pass writes: lit, drawn with lighting off, nothing drawn.
@@ -28,9 +29,11 @@ class ForcedState {
         GLclampf alpha_reference = 0;
         GLenum blend_source = GL_ONE, blend_destination = GL_ZERO;
         bool mask_shows = true, buffer_shows = true; ///< any colour reaches a buffer at all
+        bool own_program = false; ///< a program of the program's is in use; noted in peel passes
         GLenum matrix_mode = GL_MODELVIEW;
     };
     Values program;
+    bool saw_own_program = false; ///< what was drawn by it is missing
 
     void push(GLbitfield mask); ///< call before GL's own
     void pop();                 ///< call after GL's own

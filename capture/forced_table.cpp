@@ -40,7 +40,8 @@ template <auto Function, auto... Members> void replace(GlTable& table) {
     ((table.*Members = table.*Members ? Function : nullptr), ...);
 }
 
-enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3 };
+/// Peel passes force what colour passes do, and more.
+enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4 };
 
 struct Rule {
     Passes passes;
@@ -201,6 +202,15 @@ constexpr Rule rules[] = {
     {in_normal, drop<&G::UseProgram, &G::UseProgramObjectARB, &G::BindProgramPipeline>,
      "a shader's colours are not normals"},
 
+    // Our fragment shader, and what it reads.
+    {in_peel, replace<forced::use_program, &G::UseProgram>, "our shader stays"},
+    {in_peel, replace<forced::use_program_object, &G::UseProgramObjectARB>, "our shader stays"},
+    {in_peel, drop<&G::BindProgramPipeline>, "our shader stays"},
+    {in_peel, replace<forced::bind_texture, &G::BindTexture, &G::BindTextureEXT>, "our texture stays bound"},
+    {in_peel,
+     drop<&G::BindTextures, &G::BindTextureUnit, &G::BindMultiTextureEXT, &G::BindSampler, &G::BindSamplers>,
+     "our texture stays bound"},
+
     // Where tracked state comes from.
     {in_both, replace<forced::enable, &G::Enable>, "table of caps"},
     {in_both, replace<forced::disable, &G::Disable>, "table of caps"},
@@ -214,7 +224,9 @@ constexpr Rule rules[] = {
 
 ForcedTable::ForcedTable(const GlTable& real, PassKind kind, bool mirrored)
     : real(real), kind(kind), mirrored(mirrored), state(real, kind), forced(real) {
-    const unsigned pass = kind == PassKind::colour ? in_colour : in_normal;
+    const unsigned pass = kind == PassKind::normal   ? in_normal
+                          : kind == PassKind::colour ? in_colour
+                                                     : in_colour | in_peel;
     for (const Rule& rule : rules)
         if (rule.passes & pass) rule.install(forced);
     current_table = this;

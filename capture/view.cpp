@@ -14,6 +14,13 @@ glm::dmat4 lattice_projection(const Box& box, Axis axis) {
     return projection;
 }
 
+glm::dmat4 lattice_slab_projection(const Box& box, Axis axis, double near, double far) {
+    glm::dmat4 slab(1.0); // clip depth -1..1 of the box: those of near and far become -1 and 1
+    slab[2][2] = 1 / (far - near);
+    slab[3][2] = (1 - near - far) / (far - near);
+    return slab * lattice_projection(box, axis);
+}
+
 glm::dvec3 lattice_point(const Box& box, int n, Axis axis, int i, int j, double depth) {
     const ImageAxes axes = image_axes(axis);
     glm::dvec3 point = box.lo;

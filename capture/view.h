@@ -61,6 +61,9 @@ constexpr ImageAxes image_axes(Axis axis) {
 /// degree turn).
 glm::dmat4 lattice_projection(const Box& box, Axis axis);
 
+/// The same for a slab of the box: depth 0..1 runs from `near` to `far`, fractions of the box along +axis.
+glm::dmat4 lattice_slab_projection(const Box& box, Axis axis, double near, double far);
+
 /// Position in the capture frame of pixel (i, j) of an n x n image at `depth` in 0..1.
 glm::dvec3 lattice_point(const Box& box, int n, Axis axis, int i, int j, double depth);
 

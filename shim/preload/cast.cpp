@@ -114,20 +114,21 @@ void tell_not_understood(const record::Frame& frame) {
 /// Engine to file, image by image.
 CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const CaptureInfo& info,
                          const EngineOptions& engine, const std::string& path) {
-    constexpr int views = 6;
+    const int most_parts = 3 * (1 + engine.most_layers);
     const auto start = std::chrono::steady_clock::now();
-    CaptureWriter writer(path, info, views);
+    CaptureWriter writer(path, info, most_parts);
     if (!writer.error().empty()) return failure(writer.error());
     const EngineReport report =
         run_capture(gl, draw, engine, [&](ViewImage&& image) { return writer.add(std::move(image)); });
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
-    if (!writer.finish()) return failure(writer.error());
+    if (!writer.finish(report.layers, report.layer_method)) return failure(writer.error());
     tell("captured", std::to_string(info.frame) + " " + path);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     char text[200];
-    std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, %d draws, %.2f s)", info.n, info.box.size,
-                  report.draws, seconds.count());
+    std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, layers %d %d %d %s, %d draws, %.2f s)", info.n,
+                  info.box.size, report.layer_count[0], report.layer_count[1], report.layer_count[2],
+                  layers_name(report.layers), report.draws, seconds.count());
     return {CastOutcome::captured, "captured frame " + std::to_string(info.frame) + " of " + info.program +
                                        ": " + path + " " + text};
 }
@@ -143,6 +144,9 @@ CastResult cast_in_sibling(const record::Frame& frame, long number, const Option
     EngineOptions engine;
     engine.n = options.n;
     engine.normals = options.normals;
+    engine.most_layers = options.most_layers;
+    engine.layer_method = options.layer_method;
+    engine.use_shaders = options.use_shaders;
     engine.eye_to_capture = choose_eye_to_capture(scene, options);
     engine.box = options.box ? options.box : find_scene_box(gl, draw, scene.groups[group], engine);
     if (!engine.box) return {CastOutcome::nothing_solid, ""};

@@ -71,6 +71,16 @@ bool parse_normals(const std::string& text, Options& options) {
     return text == "six" || text == "signed";
 }
 
+bool parse_layers(const std::string& text, Options& options) {
+    if (text == "auto") return true;
+    if (text == "slab") {
+        options.layer_method = LayerMethod::slab;
+        return true;
+    }
+    return parse_number(text, options.most_layers) && options.most_layers >= 1 &&
+           options.most_layers <= max_layers;
+}
+
 /// The variables beside GLCAST_OUT and what each may hold.
 struct Variable {
     const char* name;
@@ -96,6 +106,9 @@ constexpr Variable variables[] = {
          return parse_number(t, o.after_seconds) && std::isfinite(o.after_seconds) && o.after_seconds >= 0;
      }},
     {"GLCAST_NORMALS", "signed or six", parse_normals},
+    {"GLCAST_LAYERS", "auto, slab, or a whole number from 1 to 256", parse_layers},
+    {"GLCAST_SHADERS", "0 or 1",
+     [](const std::string& t, Options& o) { return parse_switch(t, o.use_shaders); }},
     {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1", parse_box},
     {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
      parse_frame_matrix},

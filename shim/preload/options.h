@@ -26,6 +26,9 @@ struct Options {
     double after_seconds =
         0; ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
     NormalMethod normals = NormalMethod::signed_lights; ///< GLCAST_NORMALS: signed, six
+    int most_layers = EngineOptions().most_layers;      ///< GLCAST_LAYERS: a number, auto, slab
+    LayerMethod layer_method = LayerMethod::peel;       ///< GLCAST_LAYERS: slab
+    bool use_shaders = true;                            ///< GLCAST_SHADERS: 0 as if the driver had none
     std::optional<Box>
         box; ///< GLCAST_BOX: x0,y0,z0,x1,y1,z1 in the capture frame; made a cube about its centre
     FrameMatrix frame_matrix = FrameMatrix::automatic; ///< GLCAST_FRAME_MATRIX: eye, base, or 16 numbers
@@ -34,8 +37,8 @@ struct Options {
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
-    bool quit = false; ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
-    std::string error; ///< one line; not armed then
+    bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
+    std::string error;      ///< one line; not armed then
 };
 
 Options read_options();

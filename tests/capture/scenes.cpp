@@ -60,8 +60,12 @@ void set_diffuse(const GlTable& gl, glm::vec3 colour, GLenum name, GLenum face) 
     gl.Materialfv(face, name, values);
 }
 
-const ViewImage& Cast::view(Axis axis, Side side) const {
-    return images.at(2 * static_cast<int>(axis) + static_cast<int>(side));
+const ViewImage& Cast::view(Axis axis, Side side) const { return *find({axis, side, 0}); }
+
+const ViewImage* Cast::find(const View& view) const {
+    for (const ViewImage& image : images)
+        if (image.view == view) return &image;
+    return nullptr;
 }
 
 Cast capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options) {
@@ -76,6 +80,7 @@ Cast capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& o
 EngineOptions small_options(int n) {
     EngineOptions options;
     options.n = n;
+    options.most_layers = 1;
     return options;
 }
 

@@ -22,12 +22,13 @@ void set_diffuse(const GlTable& gl, glm::vec3 colour, GLenum name = GL_DIFFUSE,
 /// A capture with everything that came out.
 struct Cast {
     EngineReport report;
-    std::vector<ViewImage> images; ///< -x +x -y +y -z +z
+    std::vector<ViewImage> images; ///< -x +x -y +y -z +z, and their layers
 
-    const ViewImage& view(Axis axis, Side side) const;
+    const ViewImage& view(Axis axis, Side side) const; ///< layer 0
+    const ViewImage* find(const View& view) const;     ///< null when it is not there
 };
 Cast capture(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
-EngineOptions small_options(int n = 64);
+EngineOptions small_options(int n = 64); ///< only the six views
 
 /// The pixel of a view whose ray is nearest to a point.
 std::size_t pixel_of(const Box& box, int n, Axis axis, glm::dvec3 point);

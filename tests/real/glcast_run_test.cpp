@@ -90,6 +90,8 @@ TEST_F(GlcastRun, RefusesWrongUsage) {
     expect_refused({"--frame", "0"}, 2, "0");
     expect_refused({"--frame", "2", "--after", "1"}, 2, "excludes");
     expect_refused({"--normals", "eight"}, 2, "eight");
+    for (const char* layers : {"many", "0", "257", "2.5", "-1"})
+        expect_refused({std::string("--layers=") + layers}, 2, "from 1 to 256");
     expect_refused({"--no-such-option"}, 2, "--no-such-option");
     expect_refused({"--"}, 2, "no PROGRAM");
 }
@@ -186,10 +188,10 @@ TEST_F(GlcastRun, ListsGroupsOnStandardOutput) {
 }
 
 TEST_F(GlcastRun, HandsItsOptionsToTheShim) {
-    const CommandResult result = run({"-n", "64", "--normals", "six", "--box", "0,0,0,1,1,1", "--group", "2",
-                                      "--frame", "7", "-o", capture(), "--", "env"});
-    for (const char* variable : {"GLCAST_N=64\n", "GLCAST_NORMALS=six\n", "GLCAST_BOX=0,0,0,1,1,1\n",
-                                 "GLCAST_GROUP=2\n", "GLCAST_FRAME=7\n"}) {
+    const CommandResult result = run({"-n", "64", "--normals", "six", "--layers", "3", "--box", "0,0,0,1,1,1",
+                                      "--group", "2", "--frame", "7", "-o", capture(), "--", "env"});
+    for (const char* variable : {"GLCAST_N=64\n", "GLCAST_NORMALS=six\n", "GLCAST_LAYERS=3\n",
+                                 "GLCAST_BOX=0,0,0,1,1,1\n", "GLCAST_GROUP=2\n", "GLCAST_FRAME=7\n"}) {
         EXPECT_THAT(result.out, HasSubstr(variable));
     }
     EXPECT_THAT(result.out, Not(HasSubstr("GLCAST_QUIT")));

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -74,6 +75,14 @@ std::string check_frame_matrix(const std::string& text) {
                : "the 16 numbers must be rotation, uniform scale and translation, column by column";
 }
 
+std::string check_layers(const std::string& text) {
+    int most = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), most);
+    const bool number = error == std::errc{} && stop == text.data() + text.size();
+    const bool good = text == "auto" || text == "slab" || (number && most >= 1 && most <= max_layers);
+    return good ? "" : "needs auto, slab or a whole number from 1 to 256, not " + text;
+}
+
 class HelpFormat : public CLI::Formatter {
     std::string make_usage(const CLI::App*, std::string) const override {
         return "Usage: glcast-run [OPTIONS] -- PROGRAM [ARGS...]\n";
@@ -105,6 +114,12 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--normals", o.normals, "signed: one render; six: the paper's six renders")
         ->envname("GLCAST_NORMALS")
         ->check(CLI::IsMember({"signed", "six"}))
+        ->capture_default_str();
+    app.add_option(
+           "--layers", o.layers,
+           "auto: all hits of each ray; K: at most K, 1 for the six views alone; slab: by clip planes")
+        ->envname("GLCAST_LAYERS")
+        ->check(check_layers)
         ->capture_default_str();
     app.add_option("--box", o.box, "x0,y0,z0,x1,y1,z1 in the capture frame (default: found by drawing)")
         ->envname("GLCAST_BOX")
@@ -199,6 +214,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_CAPTURES", std::to_string(o.captures)},
         {"GLCAST_AFTER", o.after_seconds > 0 ? number(o.after_seconds) : ""},
         {"GLCAST_NORMALS", o.normals},
+        {"GLCAST_LAYERS", o.layers},
         {"GLCAST_BOX", o.box},
         {"GLCAST_FRAME_MATRIX", o.frame_matrix},
         {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},

@@ -16,6 +16,7 @@ struct Options {
     long every = 0;           ///< cast every so many-th frame; 0: not asked for
     long captures = -1;       ///< so many, 0: no limit; never negative after parse_options
     std::string normals = "signed";
+    std::string layers = "auto";
     std::string box;          ///< x0,y0,z0,x1,y1,z1, or empty
     std::string frame_matrix; ///< eye, base, 16 numbers, or empty
     int group = 0;            ///< from 1; 0: the one with most triangles
