@@ -12,7 +12,8 @@ namespace glcast::test {
 inline const Box test_box{glm::dvec3(-1.013, -1.007, -1.021), 2.04};
 inline double sample_size(int n) { return test_box.size / n; }
 
-/// Cast, reconstructed, and checked to be a closed two-manifold by two checks that did not make it.
+/// Cast, reconstructed, and checked to be a closed two-manifold by two checks that did not make it, and not
+/// to pass through itself.
 struct Cast {
     Mesh mesh;
     ReconstructReport report;
@@ -22,8 +23,9 @@ inline Cast cast(const std::vector<ViewImage>& images, const ReconstructOptions&
     out.mesh = reconstruct(images, test_box, options, &out.report);
     const Topology found = topology(out.mesh);
     EXPECT_TRUE(found.closed()) << found;
-    const MeshCheck check = check_mesh(out.mesh);
+    const MeshCheck check = check_mesh(out.mesh, CheckDepth::everything);
     EXPECT_TRUE(check.closed_manifold());
+    EXPECT_EQ(check.self_intersections, 0u);
     EXPECT_EQ(check.unused_vertices, 0u);
     return out;
 }

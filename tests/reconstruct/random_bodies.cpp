@@ -91,7 +91,8 @@ BodyPtr random_part(Dice& dice) {
         return frustum(dice.point(0.6), dice.point(0.6), radius, radius, colour);
     }
     case 6:
-        return frustum(dice.point(0.6), dice.point(0.6), dice.between(0, 0.1), dice.between(0.1, 0.5), colour);
+        return frustum(dice.point(0.6), dice.point(0.6), dice.between(0, 0.1), dice.between(0.1, 0.5),
+                       colour);
     default:
         return box(dice.point(0.5), {size(), size(), size()}, any_turn(dice), colour);
     }

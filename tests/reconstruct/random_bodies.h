@@ -17,7 +17,8 @@ class Dice {
     std::mt19937 random;
 };
 
-/// A cone cut off between `from` and `to`, with the radius that it has there; a cylinder when these are equal.
+/// A cone cut off between `from` and `to`, with the radius that it has there; a cylinder when these are
+/// equal.
 BodyPtr frustum(glm::dvec3 from, glm::dvec3 to, double radius_from, double radius_to,
                 glm::vec3 colour = {1, 1, 0});
 

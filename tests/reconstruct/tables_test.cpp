@@ -3,6 +3,7 @@
 #include <random>
 
 #include "tests/reconstruct/cast.h"
+#include "tests/reconstruct/random_bodies.h"
 #include "tools/reconstruct/manifold.h"
 #include "tools/reconstruct/patches.h"
 #include "tools/reconstruct/planes.h"
@@ -27,6 +28,79 @@ TEST(Patches, ComplementIsTheOtherSideOfTheSameSurfaceWhereNothingIsAmbiguous) {
     const PatchTable& table = patch_table();
     for (int config : {0x01, 0x03, 0x0f, 0x17, 0x81})
         EXPECT_EQ(table.count[config][6], table.count[255 - config][6]);
+}
+
+/// Quarter plane of the cube's face about cell edge `e`: +-1 along the two axes that span it, seen from the
+/// cell's middle.
+glm::ivec3 quarter(int e) {
+    glm::ivec3 towards(0);
+    for (int k = 0; k < 3; ++k)
+        if (k != edge_axis(e)) towards[k] = (edge_corner(e) >> k & 1) ? 1 : -1;
+    return towards;
+}
+
+/// Is there an axis along which p + quarter and q + quarter are apart, `d` = p - q?
+bool quarters_apart(const glm::ivec3& p, const glm::ivec3& q, const glm::vec3& d) {
+    for (int k = 0; k < 3; ++k) {
+        const bool q_reaches_up = q[k] > 0 || p[k] < 0, q_reaches_down = q[k] < 0 || p[k] > 0;
+        if ((d[k] > 1e-6f && !q_reaches_up) || (d[k] < -1e-6f && !q_reaches_down)) return true;
+    }
+    return false;
+}
+
+TEST(Patches, OfOneCellDoNotTouchWhenPulledApart) {
+    const PatchTable& table = patch_table();
+    int pairs = 0;
+    for (int config = 0; config < 256; ++config)
+        for (int flipped : {no_face, int(table.twice[config])}) {
+            const auto& patch = table.patch[config][flipped];
+            const auto& towards = table.towards[config][flipped];
+            for (int e = 0; e < 12; ++e)
+                for (int f = 0; f < 12; ++f) {
+                    if (patch[e] == 255 || patch[f] == 255 || patch[e] == patch[f]) continue;
+                    ++pairs;
+                    EXPECT_TRUE(quarters_apart(quarter(e), quarter(f), towards[patch[e]] - towards[patch[f]]))
+                        << config << ' ' << flipped << ' ' << e << ' ' << f;
+                }
+        }
+    EXPECT_GT(pairs, 1000);
+}
+
+/// The four edges of a face that changes sign at all of them: parts on either side of it, each with one
+/// corner.
+TEST(Patches, ArcsOfAnAmbiguousFaceArePulledApartBothWays) {
+    const PatchTable& table = patch_table();
+    int faces = 0;
+    for (int config = 0; config < 256; ++config)
+        for (int flipped : {no_face, int(table.twice[config])})
+            for (int face = 0; face < 6; ++face) {
+                const auto& patch = table.patch[config][flipped];
+                glm::ivec2 edge[2] = {glm::ivec2(-1),
+                                      glm::ivec2(-1)}; // by axis within the face, low and high
+                const int a = face >> 1, b = (a + 1) % 3, c = (a + 2) % 3;
+                for (int e = 0; e < 12; ++e) {
+                    if (patch[e] == 255 || edge_axis(e) == a || (edge_corner(e) >> a & 1) != (face & 1))
+                        continue;
+                    const int other = edge_axis(e) == b ? c : b;
+                    edge[edge_axis(e) == b][edge_corner(e) >> other & 1] = patch[e];
+                }
+                const glm::ivec2 along_b = edge[1], along_c = edge[0]; // at low and high c; at low and high b
+                if (along_b[0] < 0 || along_b[1] < 0 || along_c[0] < 0 || along_c[1] < 0) continue;
+                if (along_b[0] == along_b[1]) continue; // both arcs in one patch
+                ++faces;
+                const auto& towards = table.towards[config][flipped];
+                EXPECT_GT(towards[along_b[1]][c] - towards[along_b[0]][c], 0.3f) << config << ' ' << face;
+                EXPECT_GT(towards[along_c[1]][b] - towards[along_c[0]][b], 0.3f) << config << ' ' << face;
+            }
+    EXPECT_GT(faces, 50);
+}
+
+TEST(Patches, CubesOfNoiseDoNotTouch) { // the last rung of mend.cpp
+    Dice dice(11);
+    for (int trial = 0; trial < 6; ++trial) {
+        const auto images = noise_images(20, dice.random, 1);
+        cast(images, {SurfaceMethod::cubes, 0, false});
+    }
 }
 
 TEST(Normals, PackedNormalsAreExactEnough) {

@@ -48,6 +48,20 @@ Arcs arcs_of(int config, int face, bool join_filled) {
     return arcs;
 }
 
+void point_to_patches(PatchTable& table, int config, int flipped) {
+    glm::vec3* towards = table.towards[config][flipped];
+    int edges[4] = {};
+    for (int k = 0; k < 4; ++k) towards[k] = glm::vec3(0);
+    for (int e = 0; e < 12; ++e) {
+        const int patch = table.patch[config][flipped][e];
+        if (patch == 255) continue;
+        ++edges[patch];
+        for (int axis = 0; axis < 3; ++axis)
+            if (axis != edge_axis(e)) towards[patch][axis] += (edge_corner(e) >> axis & 1) ? 0.5f : -0.5f;
+    }
+    for (int k = 0; k < table.count[config][flipped]; ++k) towards[k] /= float(edges[k]);
+}
+
 void number_patches(PatchTable& table, int config, int flipped) {
     std::array<int, 12> parent;
     std::iota(parent.begin(), parent.end(), 0);
@@ -71,6 +85,7 @@ void number_patches(PatchTable& table, int config, int flipped) {
         table.patch[config][flipped][e] = changing[e] ? std::uint8_t(number[root(e)]) : 255;
     }
     table.count[config][flipped] = std::uint8_t(count);
+    point_to_patches(table, config, flipped);
 }
 
 PatchTable make_table() {

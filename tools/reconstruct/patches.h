@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 namespace glcast {
 
@@ -20,6 +21,10 @@ struct PatchTable {
     std::uint8_t patch[256][7][12];
     /// The ambiguous face both of whose arcs are in one patch: never more than one (asserted); else no_face.
     std::uint8_t twice[256];
+    /// From the middle of the cell towards each patch: the mean of the middles of its edges. Patches of one
+    /// cell that are pulled apart so far, or any part of it, do not touch (mend.cpp; asserted by a test for
+    /// every configuration).
+    glm::vec3 towards[256][7][4];
 };
 
 const PatchTable& patch_table();

@@ -1,7 +1,6 @@
 #include "tools/reconstruct/quads.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -14,7 +13,8 @@
 namespace glcast {
 namespace {
 
-constexpr double level = 2e-3; // samples: both diagonals pass the crossing at the same height
+constexpr double level = 2e-3;     // samples: both diagonals pass the crossing at the same height
+constexpr double clearance = 4e-4; // samples that a quad must keep from the sides of its envelope
 
 /// The cells of a row from the x asked last on; x never decreases.
 class RowCursor {
@@ -56,6 +56,8 @@ double area_along(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r,
 
 /// A quad about a lattice edge: corners counter-clockwise seen from +axis.
 struct Quad {
+    /// Its cells: bit 0 is one back in b, bit 1 one back in c.
+    static constexpr int around[4] = {3, 2, 0, 1};
     glm::dvec3 corner[4];
     int axis;
     glm::dvec3 low; ///< the edge's lower end, samples
@@ -77,6 +79,37 @@ struct Quad {
         height = at_third * third[axis] + at_r * r[axis] + (1 - at_third - at_r) * p[axis];
         return fair;
     }
+
+    /// How far the corners are outside their cells along an axis at most; negative when all are inside.
+    double stray() const {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        double most = -1;
+        for (int k = 0; k < 4; ++k) {
+            glm::dvec3 in = corner[k] - low - 0.5;
+            in[b] += around[k] & 1;
+            in[c] += around[k] >> 1;
+            most = std::max({most, std::abs(in.x), std::abs(in.y), std::abs(in.z)});
+        }
+        return most - 0.5;
+    }
+
+    /// Are both triangles in the envelope of Ju and Udeshi 2006, the tetrahedra of the lattice edge and each
+    /// side of the quad? Corners in their cells: the one triangle that the edge pierces is; the other is when
+    /// the diagonal passes between it and the edge within the triangle that the edge and its third corner
+    /// make.
+    bool in_envelope(int d, double clearance) const {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        const glm::dvec3 p = corner[d] - low, r = corner[d + 2] - low, edge(0);
+        const double side = area_along(p, r, edge, b, c);
+        const glm::dvec3 s = (side > 0 ? corner[d + 1] : corner[(d + 3) % 4]) - low;
+        const double all = side - area_along(p, r, s, b, c);
+        if (!(std::abs(all) > 1e-9)) return false;
+        const double t = side / all, along = area_along(p, edge, s, b, c);
+        const double whole = along - area_along(r, edge, s, b, c);
+        if (!(std::abs(whole) > 1e-9)) return false;
+        const double height = p[axis] + along / whole * (r[axis] - p[axis]) - t * s[axis];
+        return t < 1 - clearance && height > clearance && height < 1 - t - clearance;
+    }
 };
 
 /// 0 or 1: the corner where the better diagonal starts. It is the one that passes nearer to the crossing.
@@ -92,12 +125,19 @@ int better_diagonal(const Quad& quad, const Crossing& crossing) {
 
 class Layer {
   public:
-    Layer(const Rays& rays, const CellGrid& grid, const std::vector<glm::dvec3>& positions, Triangle* out)
-        : rays(rays), grid(grid), positions(positions), out(out) {}
-    void run(int z) {
-        for (int y = 0; y <= grid.n; ++y) run_row(y, z);
+    Layer(const Rays& rays, const CellGrid& grid, const std::vector<glm::dvec3>& positions, double rounding)
+        : rays(rays), grid(grid), positions(positions), clear(clearance + 2 * rounding) {}
+    void run(int z, Triangle* to, std::uint32_t* first_quad) {
+        out = to;
+        made = std::uint32_t(grid.quad_start[z]);
+        for (int y = 0; y <= grid.n; ++y) {
+            first_quad[y] = made;
+            run_row(y, z);
+        }
     }
     std::size_t unsupported = 0;
+    std::vector<std::uint32_t> suspects;
+    double stray = 0;
 
   private:
     void run_row(int y, int z) {
@@ -115,19 +155,23 @@ class Layer {
     void add_quad(const RowCursor (&rows)[4], int x, int y, int z, int axis, bool low_filled) {
         const int b = (axis + 1) % 3, c = (axis + 2) % 3;
         const auto low = cell_sample(x, y, z, 0);
-        // Around the edge, seen from +axis: bit 0 is one back in b, bit 1 one back in c.
-        constexpr int around[4] = {3, 2, 0, 1};
         std::uint32_t vertex[4];
         Quad quad{{}, axis, glm::dvec3(low[0], low[1], low[2])};
+        bool suspect = false;
         for (int k = 0; k < 4; ++k) {
-            const int corner = (around[k] & 1) << b | (around[k] >> 1) << c;
+            const int corner = (Quad::around[k] & 1) << b | (Quad::around[k] >> 1) << c;
             const Cell& cell = rows[corner >> 1].cell(x - (corner & 1));
             vertex[k] = vertex_of(cell, edge_index(axis, corner));
             quad.corner[k] = positions[vertex[k]];
+            suspect |= patch_table().count[cell.config][cell.flipped] > 1;
         }
         const Crossing crossing = find_crossing(rays, axis, low, low_filled);
         unsupported += !crossing.supported;
         const int d = better_diagonal(quad, crossing);
+        const double outside = quad.stray();
+        stray = std::max(stray, outside);
+        if (suspect || outside > -clear || !quad.in_envelope(d, clear)) suspects.push_back(made);
+        ++made;
         Triangle triangles[2] = {{vertex[d], vertex[d + 1], vertex[d + 2]},
                                  {vertex[d], vertex[d + 2], vertex[(d + 3) % 4]}};
         for (Triangle& triangle : triangles) {
@@ -139,21 +183,30 @@ class Layer {
     const Rays& rays;
     const CellGrid& grid;
     const std::vector<glm::dvec3>& positions;
-    Triangle* out;
+    const double clear;
+    Triangle* out = nullptr;
+    std::uint32_t made = 0;
 };
 
 } // namespace
 
 std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
-                                     const std::vector<glm::dvec3>& positions, QuadReport& report) {
+                                     const std::vector<glm::dvec3>& positions, double rounding,
+                                     QuadReport& report) {
     std::vector<Triangle> triangles(2 * grid.quad_start.back());
-    std::atomic<std::size_t> unsupported = 0;
+    report = {};
+    report.crossings = grid.quad_start.back();
+    report.first_quad.resize(grid.row_start.size());
+    report.first_quad.back() = std::uint32_t(report.crossings);
+    std::vector<Layer> layers(grid.n + 1, Layer(rays, grid, positions, rounding));
     tbb::parallel_for(0, grid.n + 1, [&](int z) {
-        Layer layer(rays, grid, positions, triangles.data() + 2 * grid.quad_start[z]);
-        layer.run(z);
-        unsupported += layer.unsupported;
+        layers[z].run(z, triangles.data() + 2 * grid.quad_start[z], &report.first_quad[grid.row(0, z)]);
     });
-    report = {grid.quad_start.back(), unsupported};
+    for (const Layer& layer : layers) {
+        report.unsupported += layer.unsupported;
+        report.stray = std::max(report.stray, float(layer.stray));
+        report.suspects.insert(report.suspects.end(), layer.suspects.begin(), layer.suspects.end());
+    }
     return triangles;
 }
 

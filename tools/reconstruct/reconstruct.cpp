@@ -7,6 +7,7 @@
 
 #include "tools/reconstruct/attributes.h"
 #include "tools/reconstruct/cells.h"
+#include "tools/reconstruct/frame.h"
 #include "tools/reconstruct/manifold.h"
 #include "tools/reconstruct/quads.h"
 #include "tools/reconstruct/rays.h"
@@ -26,8 +27,8 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
 };
 
-void to_capture_frame(Mesh& mesh, const Box& box, int n) {
-    for (glm::dvec3& p : mesh.positions) p = box.lo + (p + 0.5) * (box.size / n);
+void to_capture_frame(Mesh& mesh, const CaptureFrame& frame) {
+    for (glm::dvec3& p : mesh.positions) p = frame(p);
 }
 
 } // namespace
@@ -46,13 +47,15 @@ Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const Recons
     Mesh mesh;
     mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(rays, grid);
     QuadReport quads;
-    mesh.triangles = make_triangles(rays, grid, mesh.positions, quads);
+    const CaptureFrame frame(box, rays.n);
+    mesh.triangles = make_triangles(rays, grid, mesh.positions, frame.rounding(), quads);
+    if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();
 
     made.vertices_without_pixel = cubes ? sample_squares(rays, mesh, options.geometric_normals)
                                         : sample_vertices(rays, mesh, options.geometric_normals);
-    to_capture_frame(mesh, box, rays.n);
+    to_capture_frame(mesh, frame);
     made.attribute_seconds = watch.lap();
 
     made.filled_samples = grid.filled_samples;

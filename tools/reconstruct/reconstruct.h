@@ -6,6 +6,7 @@
 
 #include "capture/view_image.h"
 #include "tools/mesh/mesh.h"
+#include "tools/reconstruct/mend.h"
 
 namespace glcast {
 
@@ -22,17 +23,19 @@ struct ReconstructOptions {
 
 struct ReconstructReport {
     std::size_t filled_samples = 0;
-    std::size_t thin_samples = 0;           ///< filled only because a sheet passes by
-    std::size_t crossings = 0;              ///< lattice edges that change sign
-    std::size_t unsupported_crossings = 0;  ///< of these, how many no ray saw
-    std::size_t vertices_without_pixel = 0; ///< colour of a neighbour on the surface, normal of the surface itself
+    std::size_t thin_samples = 0;          ///< filled only because a sheet passes by
+    std::size_t crossings = 0;             ///< lattice edges that change sign
+    std::size_t unsupported_crossings = 0; ///< of these, how many no ray saw
+    std::size_t vertices_without_pixel =
+        0; ///< colour of a neighbour on the surface, normal of the surface itself
+    MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };
 
 /// `images` holds layer 0 of all six views, same n. The mesh is a closed two-manifold, asserted before it is
-/// returned (throws std::logic_error, which is a bug), in capture-frame units, normals unit length, colours
-/// as drawn. Throws std::runtime_error when a view is missing or nothing is filled. The same images give the
-/// same mesh, bit for bit, whatever the number of threads.
+/// returned (throws std::logic_error, which is a bug), and does not pass through itself, in capture-frame
+/// units, normals unit length, colours as drawn. Throws std::runtime_error when a view is missing or nothing
+/// is filled. The same images give the same mesh, bit for bit, whatever the number of threads.
 Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
                  ReconstructReport* report = nullptr);
 

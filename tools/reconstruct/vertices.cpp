@@ -1,6 +1,8 @@
 #include "tools/reconstruct/vertices.h"
 
 #include <algorithm>
+#include <array>
+#include <glm/common.hpp>
 #include <tbb/parallel_for.h>
 
 #include "tools/reconstruct/crossings.h"
@@ -14,6 +16,7 @@ constexpr float estimated_weight = 0.25f;
 constexpr float sharp = 0.02f;  // samples: planes that cannot all be met within the cell
 constexpr float leeway = 0.25f; // samples beyond the cell that a vertex may go to meet them
 constexpr float margin = 1e-3f; // off the cell's sides, so that vertices of neighbours never coincide
+constexpr float apart = 0.1f;   // of the way from a cell's middle to the edges of each of its patches
 
 struct Patch {
     Quadric quadric;
@@ -41,8 +44,10 @@ void add_crossing(Patch& patch, const Crossing& crossing, int axis, const glm::v
         patch.quadric.add(point, weight);
 }
 
-void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<glm::dvec3>& positions) {
-    Patch patches[4];
+using Patches = std::array<Patch, 4>;
+
+Patches patches_of(const Rays& rays, const Cell& cell, int y, int z) {
+    Patches patches;
     const auto& patch_of = patch_table().patch[cell.config][cell.flipped];
     const std::array<int, 3> origin = cell_sample(cell.x, y, z, 0);
     for (int edge = 0; edge < 12; ++edge) {
@@ -53,10 +58,21 @@ void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<gl
         add_crossing(patches[patch_of[edge]], crossing, axis, {corner & 1, corner >> 1 & 1, corner >> 2},
                      float(origin[axis]));
     }
+    return patches;
+}
+
+glm::dvec3 origin_of(const Cell& cell, int y, int z) { return {cell.x - 1, y - 1, z - 1}; }
+
+void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<glm::dvec3>& positions) {
+    const Patches patches = patches_of(rays, cell, y, z);
     for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k) {
-        positions[cell.first + k] =
-            glm::dvec3(patches[k].vertex()) + glm::dvec3(origin[0], origin[1], origin[2]);
+        positions[cell.first + k] = glm::dvec3(patches[k].vertex()) + origin_of(cell, y, z);
     }
+}
+
+glm::vec3 safe_place(const Cell& cell, int patch) {
+    if (patch_table().count[cell.config][cell.flipped] == 1) return glm::vec3(0.5f);
+    return 0.5f + apart * patch_table().towards[cell.config][cell.flipped][patch];
 }
 
 template <class Place> void for_rows(const CellGrid& grid, Place place) {
@@ -79,9 +95,31 @@ std::vector<glm::dvec3> cube_vertices(const CellGrid& grid) {
     std::vector<glm::dvec3> positions(grid.vertices);
     for_rows(grid, [&](const Cell& cell, int y, int z) {
         for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k)
-            positions[cell.first + k] = glm::dvec3(cell.x - 0.5, y - 0.5, z - 0.5);
+            positions[cell.first + k] = glm::dvec3(safe_place(cell, k)) + origin_of(cell, y, z);
     });
     return positions;
+}
+
+PlacedCell find_cell(const CellGrid& grid, std::uint32_t vertex) {
+    const auto after = std::upper_bound(grid.cells.begin(), grid.cells.end(), vertex,
+                                        [](std::uint32_t v, const Cell& cell) { return v < cell.first; });
+    const auto number = std::uint32_t(after - grid.cells.begin() - 1);
+    const auto row =
+        std::upper_bound(grid.row_start.begin(), grid.row_start.end(), number) - grid.row_start.begin() - 1;
+    return {after[-1], int(row % (grid.n + 1)), int(row / (grid.n + 1))};
+}
+
+glm::dvec3 vertex_on_rung(const Rays& rays, const CellGrid& grid, std::uint32_t vertex, int rung) {
+    const auto [cell, y, z] = find_cell(grid, vertex);
+    const int k = int(vertex - cell.first);
+    const Patch patch = patches_of(rays, cell, y, z)[k];
+    const glm::vec3 mean = glm::clamp(patch.quadric.mean(), patch.lo, patch.hi);
+    glm::vec3 place = mean;
+    if (rung == 0) place = patch.vertex();
+    if (rung == 1 || rung == 2) place = patch.quadric.minimum(patch.lo, patch.hi);
+    if (rung == 2) place = 0.5f * (place + mean);
+    if (rung > 3) place = glm::mix(mean, safe_place(cell, k), float(rung - 3) / float(last_rung - 3));
+    return glm::dvec3(place) + origin_of(cell, y, z);
 }
 
 } // namespace glcast
