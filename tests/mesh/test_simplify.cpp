@@ -46,7 +46,7 @@ double mean_distance(const Mesh& from, const Mesh& to) {
 TEST(Simplify, KeepsEveryBodyAClosedManifoldDownToNothing) {
     for (const NamedBody& body : bodies())
         for (const double triangles : {1e9, 1000.0, 301.0, 100.0, 12.0, 4.0, 0.0}) {
-            const Mesh level = simplify(body.mesh, {Unit::triangles, triangles});
+            const Mesh level = simplify(body.mesh, {Unit::triangles, triangles}, {.refit = triangles < 200});
             const std::string what = body.name + " to " + std::to_string(int(triangles));
             expect_good(level, what);
             const MeshCheck check = check_mesh(level);
@@ -75,7 +75,7 @@ TEST(Simplify, KeepsRandomBodiesManifold) {
         const MeshCheck before = check_mesh(body);
         ASSERT_TRUE(before.closed_manifold());
         for (const double ratio : {0.5, 0.0}) {
-            const Mesh level = simplify(body, {Unit::ratio, ratio});
+            const Mesh level = simplify(body, {Unit::ratio, ratio}, {.refit = attempt % 3 == 0});
             expect_good(level, "body " + std::to_string(attempt));
             EXPECT_EQ(check_mesh(level).euler, before.euler) << attempt;
             EXPECT_EQ(check_mesh(level).components, before.components) << attempt;
@@ -107,7 +107,8 @@ TEST(Simplify, MeetsTargetsExactlyOrJustBelow) {
         {{Unit::ratio, 1}, 5120},        {{Unit::edges, 7680}, 5120},     {{Unit::triangles, 5119}, 5118},
     };
     for (const Row& row : rows)
-        EXPECT_EQ(simplify(mesh, row.target).triangles.size(), row.triangles) << row.target.value;
+        EXPECT_EQ(simplify(mesh, row.target, {.refit = false}).triangles.size(), row.triangles)
+            << row.target.value;
 }
 
 TEST(Simplify, LeavesAMeshAloneThatIsSmallEnough) {
@@ -130,7 +131,8 @@ TEST(Simplify, GivesLevelsInTheOrderAskedAndAsIfAskedAlone) {
 
 TEST(Simplify, IsDeterministic) {
     for (const NamedBody& body : bodies())
-        EXPECT_TRUE(same(simplify(body.mesh, {Unit::ratio, 0.2}), simplify(body.mesh, {Unit::ratio, 0.2})))
+        EXPECT_TRUE(
+            same(simplify(body.mesh, {Unit::triangles, 200}), simplify(body.mesh, {Unit::triangles, 200})))
             << body.name;
 }
 
@@ -238,6 +240,57 @@ TEST(Simplify, NeedsNeitherColoursNorNormals) {
     const Mesh level = simplify(mesh, {Unit::triangles, 100});
     EXPECT_TRUE(level.normals.empty());
     EXPECT_TRUE(level.colours.empty());
+}
+
+/// Half a sphere, z >= 0; its boundary is the circle z = 0.
+Mesh bowl(int subdivisions) {
+    Mesh mesh = sphere(1, subdivisions), half;
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        return mesh.positions[t[0]].z + mesh.positions[t[1]].z + mesh.positions[t[2]].z < 0;
+    });
+    std::vector<std::uint32_t> number(mesh.positions.size(), UINT32_MAX);
+    for (Triangle t : mesh.triangles) {
+        for (std::uint32_t& v : t) {
+            if (number[v] == UINT32_MAX) {
+                number[v] = std::uint32_t(half.positions.size());
+                half.positions.push_back(mesh.positions[v]);
+            }
+            v = number[v];
+        }
+        half.triangles.push_back(t);
+    }
+    return half;
+}
+
+TEST(Simplify, BoundariesStayWhereTheyAre) {
+    const Mesh mesh = bowl(5);
+    const std::size_t edges = 300;
+    for (const bool refit : {false, true}) {
+        const Mesh level =
+            simplify(mesh, {Unit::edges, double(edges)}, {.allow_boundaries = true, .refit = refit});
+        const MeshCheck check = check_mesh(level);
+        EXPECT_EQ(check.non_manifold_edges + check.non_manifold_vertices, 0U);
+        EXPECT_LE(check.edges, edges);
+        EXPECT_GE(check.edges, edges - 3);
+        EXPECT_EQ(check.euler, 1); // still a disc
+        EXPECT_LT(mean_distance(mesh, level), 0.012);
+        EXPECT_LT(mean_distance(level, mesh), 0.012);
+    }
+    EXPECT_THROW(simplify(mesh, {Unit::edges, 300}), std::runtime_error);
+}
+
+TEST(Simplify, TheFitLessensTheErrorAndFoldsNothing) {
+    const Mesh bodies[] = {sphere(1, 5), torus(2, 0.6, 96, 48),
+                           joined(sphere(1, 5), turned_inside_out(sphere(0.98, 5)))};
+    for (const Mesh& body : bodies)
+        for (const double triangles : {800.0, 200.0}) {
+            const Mesh plain = simplify(body, {Unit::triangles, triangles}, {.refit = false}),
+                       fitted = simplify(body, {Unit::triangles, triangles});
+            expect_good(fitted, "fitted");
+            EXPECT_EQ(fitted.triangles.size(), plain.triangles.size());
+            EXPECT_LT(mean_distance(body, fitted), 0.8 * mean_distance(body, plain)) << triangles;
+            EXPECT_LT(mean_distance(fitted, body), 1.0 * mean_distance(plain, body)) << triangles;
+        }
 }
 
 TEST(Simplify, RefusesWhatIsNotClosedOrMakesNoSense) {

@@ -40,17 +40,28 @@ SurfaceWalk::Place SurfaceWalk::nearest(const glm::dvec3& point, std::uint32_t s
                 }
     }
     Place place;
-    best = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = first[at]; i < first[at + 1]; ++i) {
-        const Triangle& t = mesh.triangles[incident[i]];
+    best = improve(point, at, std::numeric_limits<double>::infinity(), place);
+    for (bool nearer = true; nearer;) { // the nearest triangle need not be at the nearest vertex
+        const double before = best;
+        for (const std::uint32_t v : Triangle(mesh.triangles[place.triangle]))
+            best = improve(point, v, best, place);
+        nearer = best < before;
+    }
+    return place;
+}
+
+/// The triangles at a vertex: is one of them nearer than `best` (squared)?
+double SurfaceWalk::improve(const glm::dvec3& point, std::uint32_t vertex, double best, Place& place) const {
+    for (const std::uint32_t triangle : around(vertex)) {
+        const Triangle& t = mesh.triangles[triangle];
         const TrianglePoint found =
             nearest_in_triangle(point, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
         if (const double d = squared(found.point - point); d < best) {
             best = d;
-            place = {incident[i], found.weights};
+            place = {triangle, found.weights};
         }
     }
-    return place;
+    return best;
 }
 
 void SurfaceWalk::take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts) const {

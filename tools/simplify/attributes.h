@@ -1,5 +1,7 @@
 // Colours and normals for vertices that have moved along or off a surface. Internal.
 #pragma once
+#include <span>
+
 #include "tools/mesh/mesh.h"
 
 namespace glcast {
@@ -14,12 +16,20 @@ class SurfaceWalk {
     /// the colour of one vertex: mixing would invent colours where parts meet. Normals are interpolated.
     void take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts) const;
 
-  private:
     struct Place {
         std::uint32_t triangle = 0;
-        glm::dvec3 weights{1, 0, 0};
+        glm::dvec3 weights{1, 0, 0}; ///< of its corners
     };
+    /// Of the surface's points the nearest that a walk downhill from vertex `start` comes to.
     Place nearest(const glm::dvec3& point, std::uint32_t start) const;
+
+    /// The triangles at a vertex.
+    std::span<const std::uint32_t> around(std::uint32_t vertex) const {
+        return {incident.data() + first[vertex], first[vertex + 1] - first[vertex]};
+    }
+
+  private:
+    double improve(const glm::dvec3& point, std::uint32_t vertex, double best, Place& place) const;
 
     const Mesh& mesh;
     std::vector<std::uint32_t>

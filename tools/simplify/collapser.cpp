@@ -51,6 +51,9 @@ constexpr double stay_near_middle = 1e-6;
 // at a lattice of 256 it outweighs noise of 1e-4 samples and is outweighed by any curvature.
 constexpr double prefer_short_edges = 1e-7;
 
+// Of a boundary's planes against those of the triangles beside it.
+constexpr double boundary_weight = 1;
+
 double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubled_area) {
     const double squares = (b - a).sqrnorm() + (c - b).sqrnorm() + (a - c).sqrnorm();
     return squares > 0 ? 2 * std::sqrt(3.0) * doubled_area / squares : 0;
@@ -106,13 +109,14 @@ struct Collapser::Impl {
     double scale = 1;
     std::vector<Quadric> quadrics;
     std::vector<std::uint32_t> sources;
+    std::vector<std::uint32_t> merged_into; ///< itself while a vertex lives
     std::vector<bool> moved;
     /// Every edge that lives is here, once, or refused. Costs only grow as quadrics are added up, so a cost
     /// that is out of date is a lower bound: it is enough to take it anew when the edge comes to the top.
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
     std::vector<bool> refused;      ///< by edge: not allowed when its turn came
     std::vector<bool> near_refused; ///< by vertex: it may have such an edge
-    std::size_t live_triangles = 0;
+    std::size_t live_triangles = 0, live_edges = 0;
     std::size_t stage = 0;
 
     explicit Impl(const Mesh& from) : original(from) {}
@@ -137,10 +141,10 @@ struct Collapser::Impl {
         for (const Triangle& t : original.triangles) {
             const auto face =
                 mesh.add_face(VertexHandle(int(t[0])), VertexHandle(int(t[1])), VertexHandle(int(t[2])));
-            if (!face.is_valid())
-                throw std::runtime_error("cannot simplify: the mesh is not a closed two-manifold");
+            if (!face.is_valid()) throw std::runtime_error("cannot simplify: the mesh is not a two-manifold");
         }
         live_triangles = faces;
+        live_edges = mesh.n_edges();
     }
 
     void build_quadrics() {
@@ -156,6 +160,22 @@ struct Collapser::Impl {
             q *= doubled_area / 2;
             for (const std::uint32_t corner : t) quadrics[corner] += q;
         }
+        for (const HalfedgeHandle half : mesh.halfedges())
+            if (mesh.is_boundary(half)) hold_boundary(mesh.opposite_halfedge_handle(half));
+    }
+
+    /// A plane through the edge of a boundary, square to its triangle (Garland and Heckbert, section 6).
+    void hold_boundary(HalfedgeHandle half) {
+        const VertexHandle v0 = mesh.from_vertex_handle(half), v1 = mesh.to_vertex_handle(half);
+        const Vec3d a = mesh.point(v0), along = mesh.point(v1) - a;
+        Vec3d outwards = along % (along % (mesh.point(mesh.opposite_vh(half)) - a));
+        const double length = outwards.norm();
+        if (length <= 0) return;
+        outwards /= length;
+        Quadric q(outwards[0], outwards[1], outwards[2], -(outwards | a));
+        q *= boundary_weight * along.sqrnorm();
+        quadrics[v0.idx()] += q;
+        quadrics[v1.idx()] += q;
     }
 
     Placement place(EdgeHandle edge) const {
@@ -201,6 +221,7 @@ struct Collapser::Impl {
     /// The link condition, and never a tetrahedron: that would leave two triangles back to back.
     bool keeps_manifold(HalfedgeHandle half) {
         if (!mesh.is_collapse_ok(half)) return false;
+        if (mesh.is_boundary(mesh.edge_handle(half))) return true;
         const VertexHandle left = mesh.opposite_vh(half);
         const VertexHandle right = mesh.opposite_vh(mesh.opposite_halfedge_handle(half));
         return !(mesh.valence(left) == 3 && mesh.valence(right) == 3 &&
@@ -212,6 +233,7 @@ struct Collapser::Impl {
         const Strictness& rule = strictness[stage];
         const Vec3d from = mesh.point(v);
         for (auto half = mesh.cvoh_iter(v); half.is_valid(); ++half) {
+            if (mesh.is_boundary(*half)) continue;
             const VertexHandle b = mesh.to_vertex_handle(*half);
             const VertexHandle c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*half));
             if (b == other || c == other) continue;
@@ -238,10 +260,13 @@ struct Collapser::Impl {
         };
         if (away(gone) < away(kept)) sources[kept.idx()] = sources[gone.idx()];
         quadrics[kept.idx()] += quadrics[gone.idx()];
+        merged_into[std::size_t(gone.idx())] = std::uint32_t(kept.idx());
+        const bool at_boundary = mesh.is_boundary(mesh.edge_handle(half));
         mesh.collapse(half);
         mesh.set_point(kept, to);
         moved[kept.idx()] = true;
-        live_triangles -= 2;
+        live_triangles -= at_boundary ? 1 : 2;
+        live_edges -= at_boundary ? 2 : 3;
         near_refused[kept.idx()] = near_refused[kept.idx()] || near_refused[gone.idx()];
         queue_around(kept);
     }
@@ -290,23 +315,22 @@ Collapser::Collapser(const Mesh& mesh) : impl(std::make_unique<Impl>(mesh)) {
     impl->build_quadrics();
     impl->sources.resize(mesh.positions.size());
     for (std::uint32_t v = 0; v < impl->sources.size(); ++v) impl->sources[v] = v;
+    impl->merged_into = impl->sources;
     impl->moved.assign(mesh.positions.size(), false);
     impl->build_heap();
 }
 
 Collapser::~Collapser() = default;
 
-std::size_t Collapser::triangles() const { return impl->live_triangles; }
-
-void Collapser::reduce_to(std::size_t triangles) {
-    while (impl->live_triangles > triangles) {
+void Collapser::reduce_to(const Limit& limit) {
+    while (impl->live_triangles > limit.triangles || impl->live_edges > limit.edges) {
         if (impl->collapse_cheapest()) continue;
         if (impl->stage + 1 == std::size(strictness)) return;
         impl->relax();
     }
 }
 
-Collapser::Remainder Collapser::remainder() const {
+Collapser::Remainder Collapser::remainder() {
     constexpr std::uint32_t unused = UINT32_MAX;
     Remainder result;
     std::vector<std::uint32_t> renumbered(impl->original.positions.size(), unused);
@@ -327,6 +351,11 @@ Collapser::Remainder Collapser::remainder() const {
             triangle[corner++] = number;
         }
         result.triangles.push_back(triangle);
+    }
+    std::vector<std::uint32_t>& into = impl->merged_into; // chains are shortened on the way
+    for (std::uint32_t v = 0; v < into.size(); ++v) {
+        while (into[v] != into[into[v]]) into[v] = into[into[v]];
+        result.became.push_back(renumbered[into[v]]);
     }
     return result;
 }

@@ -1,5 +1,6 @@
 // The run of edge collapses behind simplify(). Internal.
 #pragma once
+#include <cstdint>
 #include <memory>
 
 #include "tools/mesh/mesh.h"
@@ -12,17 +13,22 @@ class Collapser {
     struct Remainder {
         std::vector<glm::dvec3> positions;
         std::vector<std::uint32_t> sources;
+        std::vector<std::uint32_t> became; ///< for every vertex of the original, which one it was merged into
         std::vector<Triangle> triangles;
     };
 
-    /// `mesh` must be a closed two-manifold and must outlive this.
+    /// As many as may be left.
+    struct Limit {
+        std::size_t triangles = SIZE_MAX, edges = SIZE_MAX;
+    };
+
+    /// `mesh` must be a two-manifold, closed or with boundaries, and must outlive this.
     explicit Collapser(const Mesh& mesh);
     ~Collapser();
 
-    /// Collapse edges, cheapest first, until there are no more than `triangles`, or no edge may collapse.
-    void reduce_to(std::size_t triangles);
-    std::size_t triangles() const;
-    Remainder remainder() const;
+    /// Collapse edges, cheapest first, until the limit is kept, or no edge may collapse.
+    void reduce_to(const Limit& limit);
+    Remainder remainder();
 
   private:
     struct Impl;

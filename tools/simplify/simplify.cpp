@@ -8,67 +8,84 @@
 #include "tools/mesh/check.h"
 #include "tools/simplify/attributes.h"
 #include "tools/simplify/collapser.h"
+#include "tools/simplify/refit.h"
 
 namespace glcast {
 namespace {
 
-/// The most triangles that fulfil the target. A closed mesh has three edges to two triangles.
-std::size_t triangles_wanted(const SimplifyTarget& target, std::size_t have) {
+/// The most triangles that fulfil the target, and edges. A closed mesh has three edges to two triangles.
+Collapser::Limit limit_of(const SimplifyTarget& target, const MeshCheck& have) {
     using Unit = SimplifyTarget::Unit;
     if (!(target.value >= 0) || (target.unit == Unit::ratio && target.value > 1))
         throw std::runtime_error("cannot simplify: the target must be 0 or more, and a ratio 1 or less");
-    const double wanted = target.unit == Unit::edges       ? std::floor(target.value / 3) * 2
-                          : target.unit == Unit::triangles ? std::floor(target.value)
-                                                           : std::floor(target.value * double(have));
-    return wanted >= double(have) ? have : std::size_t(wanted);
+    const auto whole = [](double value, std::size_t most) {
+        return value >= double(most) ? most : std::size_t(value);
+    };
+    if (target.unit == Unit::edges) return {have.triangles, whole(target.value, have.edges)};
+    const bool ratio = target.unit == Unit::ratio;
+    return {whole(ratio ? target.value * double(have.triangles) : target.value, have.triangles), have.edges};
 }
 
-void require_closed_manifold(const Mesh& mesh) {
-    const MeshCheck check = check_mesh(mesh);
-    if (!check.closed_manifold())
-        throw std::runtime_error("cannot simplify: not a closed two-manifold (" +
-                                 std::to_string(check.boundary_edges) + " boundary edges, " +
-                                 std::to_string(check.non_manifold_edges) + " non-manifold edges, " +
-                                 std::to_string(check.non_manifold_vertices) + " non-manifold vertices)");
+bool keeps(const MeshCheck& check, const Collapser::Limit& limit) {
+    return check.triangles <= limit.triangles && check.edges <= limit.edges;
 }
 
-Mesh finished(Collapser::Remainder&& remainder, const SurfaceWalk& surface) {
+/// Empty when the mesh is such a surface.
+std::string fault(const MeshCheck& check, const SimplifyOptions& options) {
+    const bool good = !options.allow_boundaries
+                          ? check.closed_manifold()
+                          : check.triangles > 0 && check.non_manifold_edges == 0 &&
+                                check.non_manifold_vertices == 0 && check.degenerate_triangles == 0;
+    if (good) return "";
+    return std::string(options.allow_boundaries ? "not a two-manifold" : "not a closed two-manifold") + " (" +
+           describe(check) + ")";
+}
+
+Mesh finished(Collapser::Remainder&& remainder, const SurfaceWalk& walk, const SimplifyOptions& options) {
     Mesh mesh;
     mesh.positions = std::move(remainder.positions);
     mesh.triangles = std::move(remainder.triangles);
-    surface.take_attributes(mesh, remainder.sources);
-    if (!check_mesh(mesh).closed_manifold())
-        throw std::logic_error("simplify made a mesh that is not a closed two-manifold: a bug in glcast");
+    walk.take_attributes(mesh, remainder.sources);
+    if (const std::string wrong = fault(check_mesh(mesh), options); !wrong.empty())
+        throw std::logic_error("simplify made a mesh that is " + wrong + ": a bug in glcast");
     return mesh;
 }
 
 } // namespace
 
-std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets) {
-    std::vector<std::size_t> wanted(targets.size()), order(targets.size());
-    std::transform(targets.begin(), targets.end(), wanted.begin(),
-                   [&](const SimplifyTarget& t) { return triangles_wanted(t, mesh.triangles.size()); });
-    require_closed_manifold(mesh);
+std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
+                                  const SimplifyOptions& options) {
+    const MeshCheck have = check_mesh(mesh);
+    std::vector<Collapser::Limit> limits(targets.size());
+    std::transform(targets.begin(), targets.end(), limits.begin(),
+                   [&](const SimplifyTarget& t) { return limit_of(t, have); });
+    if (const std::string wrong = fault(have, options); !wrong.empty())
+        throw std::runtime_error("cannot simplify: " + wrong);
+    // From fine to coarse; for a surface with boundaries edges and triangles are nearly in the same order.
+    std::vector<std::size_t> order(targets.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return wanted[a] > wanted[b]; });
+    const auto size = [&](std::size_t k) { return std::min(limits[k].triangles * 3, limits[k].edges * 2); };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return size(a) > size(b); });
 
     std::vector<Mesh> levels(targets.size(), Mesh{});
     std::unique_ptr<Collapser> collapser;
-    const SurfaceWalk surface(mesh);
+    const SurfaceWalk walk(mesh);
     for (const std::size_t level : order) {
-        if (wanted[level] >= mesh.triangles.size()) {
+        if (keeps(have, limits[level])) {
             levels[level] = mesh;
             continue;
         }
         if (!collapser) collapser = std::make_unique<Collapser>(mesh);
-        collapser->reduce_to(wanted[level]);
-        levels[level] = finished(collapser->remainder(), surface);
+        collapser->reduce_to(limits[level]);
+        Collapser::Remainder remainder = collapser->remainder();
+        if (options.refit) refit(remainder, mesh);
+        levels[level] = finished(std::move(remainder), walk, options);
     }
     return levels;
 }
 
-Mesh simplify(const Mesh& mesh, const SimplifyTarget& target) {
-    return std::move(simplify_levels(mesh, {&target, 1}).front());
+Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options) {
+    return std::move(simplify_levels(mesh, {&target, 1}, options).front());
 }
 
 } // namespace glcast

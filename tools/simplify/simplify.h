@@ -1,4 +1,4 @@
-// Quadric edge collapse (Garland and Heckbert 1997) on OpenMesh's half-edge mesh.
+// Quadric edge collapse (Garland and Heckbert 1997) on OpenMesh's half-edge mesh, and a fit of what is left.
 #pragma once
 #include <span>
 
@@ -11,15 +11,24 @@ struct SimplifyTarget {
     double value = 0; ///< ratio: share of the triangles to keep, 0..1
 };
 
+struct SimplifyOptions {
+    /// A two-manifold with boundaries is taken too; they keep their shape as far as the target allows.
+    bool allow_boundaries = false;
+    /// After the collapses, lay each level as well as it goes along the surface (Hoppe et al. 1993): about
+    /// half the error. Without, levels are what a progressive mesh holds.
+    bool refit = true;
+};
+
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
 /// keep it manifold allow; colours and normals follow the surface. Needs a closed two-manifold: throws
 /// std::runtime_error on anything else, and on a target below 0 or a ratio above 1. Where the mesh is small
 /// enough already it comes back as it is. Every colour is one that the mesh has. The same mesh gives the same
-/// result, bit for bit.
-Mesh simplify(const Mesh& mesh, const SimplifyTarget& target);
+/// result, bit for bit, on any number of threads.
+Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options = {});
 
 /// A mesh per target, in the order of the targets, made by one run of collapses from fine to coarse: as much
-/// work as the coarsest alone, and each level is a simplification of the finer ones.
-std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets);
+/// work as the coarsest alone.
+std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
+                                  const SimplifyOptions& options = {});
 
 } // namespace glcast
