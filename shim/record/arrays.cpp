@@ -105,6 +105,21 @@ bool add_attribute_0(Context& context) {
     return true;
 }
 
+/// Programs that are not GLSL's, and what is counted of a draw under them.
+struct ProgramSwitch {
+    GLenum capability;
+    const char* extension;
+    const char* draw;
+};
+constexpr ProgramSwitch program_switches[] = {
+    {GL_VERTEX_PROGRAM_ARB, "GL_ARB_vertex_program", "a draw under an assembly program"},
+    {GL_FRAGMENT_PROGRAM_ARB, "GL_ARB_fragment_program", "a draw under an assembly program"},
+    {GL_VERTEX_PROGRAM_NV, "GL_NV_vertex_program", "a draw under an assembly program"},
+    {GL_FRAGMENT_PROGRAM_NV, "GL_NV_fragment_program", "a draw under an assembly program"},
+    {GL_FRAGMENT_SHADER_ATI, "GL_ATI_fragment_shader", "a draw under an ATI fragment shader"},
+    {GL_REGISTER_COMBINERS_NV, "GL_NV_register_combiners", "a draw under register combiners"},
+};
+
 } // namespace
 
 std::size_t element_bytes(const Array& array) {
@@ -160,10 +175,8 @@ void count_if_not_played(Context& context) {
         (limits.has(20) && get_int(gl, GL_CURRENT_PROGRAM)) ||
         (limits.has(41, "GL_ARB_separate_shader_objects") && get_int(gl, GL_PROGRAM_PIPELINE_BINDING));
     if (glsl) return context.count("a draw under a GLSL program");
-    const bool assembly =
-        (limits.has(99, "GL_ARB_vertex_program") && gl.IsEnabled(GL_VERTEX_PROGRAM_ARB)) ||
-        (limits.has(99, "GL_ARB_fragment_program") && gl.IsEnabled(GL_FRAGMENT_PROGRAM_ARB));
-    if (assembly) context.count("a draw under an assembly program");
+    for (const ProgramSwitch& row : program_switches)
+        if (limits.has(99, row.extension) && gl.IsEnabled(row.capability)) return context.count(row.draw);
 }
 
 } // namespace glcast::record

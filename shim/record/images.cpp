@@ -8,6 +8,7 @@
 
 #include "shim/record/buffers.h"
 #include "shim/record/packets.h"
+#include "shim/record/snapshot.h"
 
 namespace glcast::record {
 
@@ -130,27 +131,6 @@ void record_image(Context& context, const Image& image, const void* pixels, Writ
         if (context.compilation) context.give_up_list();
         context.give_up_frame("out of memory");
     }
-}
-
-struct TargetBinding {
-    GLenum target, binding;
-};
-constexpr TargetBinding bindings[] = {
-    {GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D},
-    {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
-    {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
-    {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
-    {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
-};
-
-/// Whether the texture object named 0 is bound to a target. False for proxies and targets that fixed
-/// functions have not.
-bool binds_default_texture(const GlTable& gl, GLenum target) {
-    if (target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z)
-        target = GL_TEXTURE_CUBE_MAP;
-    for (const TargetBinding& row : bindings)
-        if (row.target == target) return get_int(gl, row.binding, -1) == 0;
-    return false;
 }
 
 /// The context, if a texture upload has to be kept: for a list, or for the texture named 0.

@@ -20,7 +20,7 @@ CLASSES = [
         Draw(Arrays|Elements)Instanced(BaseVertex)?(BaseInstance)? Draw(Range)?ElementsBaseVertex
         MultiDrawElementsBaseVertex
         DeleteBuffers EndTransformFeedback
-        Bitmap DrawPixels PolygonStipple Tex(Sub)?Image[123]D CompressedTex(Sub)?Image[123]D
+        Bitmap DrawPixels PolygonStipple Tex(Sub)?Image[123]D CompressedTex(Sub)?Image[123]D CopyTex(Sub)?Image[123]D
         Map[12][df]"""),
     ("arrays", r"""(Vertex|Normal|Color|SecondaryColor|FogCoord|Index|EdgeFlag|TexCoord)Pointer(EXT)?
         (Enable|Disable)ClientState(i|Indexed)?(EXT)? InterleavedArrays VertexAttribI?L?Pointer
@@ -38,14 +38,14 @@ CLASSES = [
     ("once", r"""Gen[A-Z].* Delete[A-Z].* Create[A-Z].* Getn?[A-Z].* Is[A-Z].* Check[A-Z].* Are[A-Z].* Test[A-Z].*
         FeedbackBuffer SelectBuffer PixelStore[fi]
         ClientActiveTexture BindBuffer BindBufferRange BindBufferBase BindBuffersBase BindBuffersRange PushClientAttrib
-        PrimitiveRestartIndex PrioritizeTextures BeginQuery EndQuery QueryCounter
+        PrimitiveRestartIndex(NV)? PrioritizeTextures BeginQuery EndQuery QueryCounter
         (Begin|End)QueryIndexed BeginTransformFeedback .*(Shader|ShaderSource) ShaderSource .*Attach.* LinkProgram ValidateProgram
         BindAttribLocation BindFragDataLocation(Indexed)? Uniform[1-4].* UniformMatrix.* ProgramUniform.*
         ProgramParameteri ProgramBinary ShaderBinary UniformBlockBinding ReleaseShaderCompiler UseProgramStages
         ProgramStringARB Program(Env|Local)Parameter.*ARB Program(Env|Local)Parameters4fvEXT BindProgramARB
         DetachShader FenceSync ClientWaitSync WaitSync
         Framebuffer(Texture([123]D|Layer|Face)?|Renderbuffer|Parameteri)(ARB|EXT)? RenderbufferStorage.*
-        CopyTex(Sub)?Image[123]D GenerateTextureMipmap TexStorage[123]D Texture(Sub)?Image[123]D
+        GenerateTextureMipmap TexStorage[123]D Texture(Sub)?Image[123]D
         TextureParameter.* TextureStorage[123]D BindRenderbuffer(EXT)? Sampler[A-Z].*"""),
     # why: names and feedback make no fragments; waiting is the program's; frames of ours need no labels; our own
     # target is cleared by the engine and not by ClearBuffer; copies between framebuffers and to the accumulation buffer
@@ -54,7 +54,11 @@ CLASSES = [
         ClearBuffer(fv|iv|uiv|fi) BlitFramebuffer Invalidate.* (Push|Pop)(DebugGroup|GroupMarker.*) (Push|Pop)GroupMarkerEXT
         DebugMessage.* Object(Ptr)?Label InsertEventMarkerEXT LabelObjectEXT StringMarkerGREMEDY FrameTerminatorGREMEDY
         MemoryBarrier.* TextureBarrier(NV)? LockArraysEXT UnlockArraysEXT Accum CopyPixels ResizeBuffersMESA
-        SampleCoverage MinSampleShading"""),
+        SampleCoverage MinSampleShading PolygonOffsetEXT ActiveStencilFaceEXT StencilFuncSeparateATI BufferParameteriAPPLE
+        .*Color(Sub)?Table.* .*Convolution.* SeparableFilter.* (Reset)?Histogram.* (Reset)?Minmax.* Object(Unp|P)urgeableAPPLE
+        .*FragmentShaderATI PassTexCoordATI SampleMapATI (Color|Alpha)FragmentOp[123]ATI SetFragmentShaderConstantATI
+        Combiner.*NV FinalCombinerInputNV (Begin|End)OcclusionQueryNV SamplePattern(EXT|SGIS) VertexWeighthv?NV
+        VertexAttribs[1-4]hvNV (Set|Finish)Fence(NV|APPLE) FinishObjectAPPLE SampleMask(EXT|SGIS)"""),
     ("plain", r"""ActiveTexture AlphaFunc BindTexture Blend(Color|Equation|EquationSeparate|Func|FuncSeparate)
         Clear Clear(Accum|Color|Depth|Depthf|Index|Stencil) ClipPlane Color[34][bdfisu]+v? ColorMask ColorMaterial CullFace
         Depth(Func|Mask|Range|Rangef) DepthBoundsEXT DrawBuffer DrawBuffers EdgeFlagv? EvalCoord[12][df]v? EvalMesh[12]
@@ -65,16 +69,58 @@ CLASSES = [
         PushMatrix RasterPos[234][dfis]v? Rect[dfis] Rotate[df] Scale[df] Scissor SecondaryColor3[bdfisu]+v? ShadeModel
         Stencil(Func|Mask|Op)(Separate)? TexCoord[1-4][dfis]v? TexEnv[fi]v? TexGen[dfi]v? TexParameter[fi]v?
         Translate[df] Vertex[234][dfis]v? VertexAttrib[1-4][dfs]v? VertexAttrib4N?(b|ub|i|ui|s|us)v? VertexAttrib4Nub
-        (Vertex|TexCoord|MultiTexCoord|Normal|Color|SecondaryColor|VertexAttrib)P[1-4]uiv? Viewport WindowPos[23][dfis]v? BindFramebuffer(EXT)? ProvokingVertex ClampColor GenerateMipmap PolygonOffsetClamp"""),
+        (Vertex|TexCoord|MultiTexCoord|Normal|Color|SecondaryColor|VertexAttrib)P[1-4]uiv? Viewport WindowPos[23][dfis]v? BindFramebuffer(EXT)? ProvokingVertex ClampColor GenerateMipmap PolygonOffsetClamp
+        (Vertex[234]|Normal3|Color[34]|SecondaryColor3|TexCoord[1-4]|MultiTexCoord[1-4]|FogCoord)hv?NV VertexAttrib[1-4]hv?NV
+        PrimitiveRestartNV WindowPos4[dfis]v?MESA
+        Matrix(LoadIdentity|(Load|Mult)(Transpose)?[df]|(Rotate|Scale|Translate)[df]|Frustum|Ortho|Push|Pop)EXT"""),
     ("once", r"GetError GetString"),
+]
+
+# Why calls are passed through: the words of docs/entry-points.md. The first row that matches; every call of the classes
+# once, packs, arrays, ignored, bound_buffer and named_buffer that the page lists needs one.
+REASONS = [
+    ("asks, and changes nothing", r"Get[A-Z].* Is[A-Z].* Check[A-Z].* Are[A-Z].* Test[A-Z].*"),
+    ("reads pixels into the program's memory or buffer; our copy of that buffer is dropped", r"ReadPixels Readn?Pixels.*"),
+    ("arrays and their state are asked for at the next draw, which is recorded with what it reads",
+     r""".*Pointer(EXT|ListIBM|vINTEL|ARB)? (En|Dis)ableClientState.* InterleavedArrays (En|Dis)ableVertexAttribArray.*
+        BindVertexArray.* DeleteVertexArrays.* P(op|ush)ClientAttrib.* ClientActiveTexture.* BindBuffer.* VertexAttribDivisor.*
+        VertexAttrib.*Format.* VertexAttribBinding.* PrimitiveRestartIndex.* VertexArray.* ClientAttribDefaultEXT"""),
+    ("how pixels lie in memory: asked for when an image is read", r"PixelStore[fi]"),
+    ("the buffer's contents are read at the next draw from it; our copy is dropped",
+     r".*Buffer(Sub)?Data.* (Map|Unmap|FlushMapped).*Buffer.* BufferStorage.*"),
+    ("makes or deletes names, or objects that contexts share", r"Gen[A-Z].* Delete[A-Z].* Create[A-Z].*"),
+    ("selection and feedback make no picture", r"InitNames LoadName PushName PopName PassThrough (Feedback|Select)Buffer"),
+    ("waits or hands over: the program's own business", r"Flush Finish .*Sync Fence.* (Set|Finish|Test)(Fence|Object).*"),
+    ("a hint", r"Hint PrioritizeTextures.*"),
+    ("the program's own measurement; a frame cannot begin inside one, and is replayed without",
+     r"(Begin|End)Query.* QueryCounter.* (Begin|End)OcclusionQuery.*"),
+    ("copies pixels on the screen and makes no geometry", r"Accum CopyPixels BlitFramebuffer.* ReadBuffer ClearBuffer.*"),
+    ("our images have one sample", r"SampleCoverage.* MinSampleShading.* Sample(Mask|Pattern).*"),
+    ("weights and generic attributes are read by programs alone", r"VertexWeigh.* VertexAttribs.*"),
+    ("tells the driver that arrays will not change", r"LockArraysEXT UnlockArraysEXT"),
+    ("the window's size is the driver's business", r"ResizeBuffersMESA"),
+    ("draws under programs are counted and not cast, so their parts need not be replayed",
+     r""".*Shader.* .*Program.* Uniform.* .*Attach.* (Bind|Get)AttribLocation.* BindFragDataLocation.* .*ATI Combiner.* FinalCombiner.*
+        SampleMap.* PassTexCoord.* (Alpha|Color)FragmentOp.* ExecuteProgramNV TrackMatrixNV"""),
+    ("the program's framebuffers are not shared; draws into them are told apart by glBindFramebuffer",
+     r"Framebuffer.* Renderbuffer.* BindRenderbuffer.* Invalidate.* DiscardFramebuffer.*"),
+    ("changes textures that contexts share: it has happened when the frame is played",
+     r"Texture.* TexStorage.* GenerateTextureMipmap TexBuffer.*"),
+    ("labels and markers", r".*DebugGroup.* DebugMessage.* Object(Ptr)?Label.* .*EventMarker.* LabelObject.* .*GREMEDY"),
+    ("geometry captured by transform feedback is drawn by shaders", r".*TransformFeedback.*"),
+    ("state of samplers and images of shaders", r"Sampler.* BindSampler.*"),
+    ("tables and filters of ARB_imaging change images only, and no driver of today has them",
+     r".*ColorTable.* .*ColorSubTable.* .*Convolution.* .*SeparableFilter.* .*Histogram.* .*Minmax.*"),
+    ("depth offsets and stencil are forced off in every view", r"PolygonOffsetEXT ActiveStencilFaceEXT StencilFuncSeparateATI"),
+    ("what may be thrown away", r"Object(Unp|P)urgeableAPPLE BufferParameteriAPPLE"),
 ]
 
 # Plain calls that a display list does not hold: they are executed while it is compiled.
 NOT_COMPILED = r"BindFramebuffer(EXT)? GenerateMipmap"
 
 # Calls that make fragments, or only mean something between glBegin and glEnd.
-DRAWS = r"""Begin End ArrayElement Rect[dfis] Vertex[234].* VertexAttrib[1-4P].* VertexP.* Eval(Coord|Mesh|Point).* Bitmap
-    DrawPixels"""
+DRAWS = r"""Begin End ArrayElement Rect[dfis] Vertex[234].* VertexAttrib[1-4P].* VertexP.* Vertex[234]hv?NV Eval(Coord|Mesh|Point).* Bitmap
+    DrawPixels PrimitiveRestartNV"""
 
 # Played by hand (namespace custom, play_NAME): they change what later packets depend on, or touch shared objects.
 HAND_PLAYED = r"""CallList CallLists ListBase BindTexture TexParameter[fi]v? GenerateMipmap PushAttrib

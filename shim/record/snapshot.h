@@ -15,6 +15,13 @@ void write_textures(Context& context, Stream& stream);
 void write_default_textures(Context& context, Stream& stream);
 void write_evaluators(Context& context, Stream& stream);
 
+/// One level of the texture that is bound, as an upload. False when there is none.
+bool write_level(Context& context, Stream& stream, GLenum target, GLint level);
+
+/// Whether the texture object named 0 is bound to a target. False for proxies and targets that fixed
+/// functions have not.
+bool binds_default_texture(const GlTable& gl, GLenum target);
+
 /// The tops of all matrix stacks, with depths and current modes.
 void read_matrices(Context& context, Recording& recording);
 

@@ -142,7 +142,49 @@ void write_unit(Context& context, Stream& stream, int unit) {
         packets::TexCoord4fv::write(stream, coordinates);
 }
 
-/// One level of the texture that is bound. False when there is none.
+struct TargetBinding {
+    GLenum target, binding;
+};
+constexpr TargetBinding bindings[] = {
+    {GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D},
+    {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+    {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
+    {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
+    {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
+};
+
+void write_levels(Context& context, Stream& stream, GLenum target) {
+    GLint levels = target == GL_TEXTURE_RECTANGLE ? 1 : 16;
+    for (GLint level = 0; level < levels; ++level) {
+        const int faces = target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+        bool any = false;
+        for (int face = 0; face < faces; ++face) {
+            const GLenum image = faces == 6 ? GLenum(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face) : target;
+            any |= write_level(context, stream, image, level);
+        }
+        if (!any) return;
+    }
+}
+
+void write_texture_parameters(Context& context, Stream& stream, GLenum target) {
+    for (const Parameter& row : texture_parameters) {
+        if (!context.get_limits().has(row.since)) continue;
+        GLfloat values[4] = {};
+        context.real.GetTexParameterfv(target, row.name, values);
+        packets::TexParameterfv::write(stream, target, row.name, values);
+    }
+}
+
+} // namespace
+
+bool binds_default_texture(const GlTable& gl, GLenum target) {
+    if (target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z)
+        target = GL_TEXTURE_CUBE_MAP;
+    for (const TargetBinding& row : bindings)
+        if (row.target == target) return get_int(gl, row.binding, -1) == 0;
+    return false;
+}
+
 bool write_level(Context& context, Stream& stream, GLenum target, GLint level) {
     const GlTable& gl = context.real;
     const auto get = [&](GLenum name) {
@@ -171,30 +213,6 @@ bool write_level(Context& context, Stream& stream, GLenum target, GLint level) {
                                    pixels.data());
     return true;
 }
-
-void write_levels(Context& context, Stream& stream, GLenum target) {
-    GLint levels = target == GL_TEXTURE_RECTANGLE ? 1 : 16;
-    for (GLint level = 0; level < levels; ++level) {
-        const int faces = target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
-        bool any = false;
-        for (int face = 0; face < faces; ++face) {
-            const GLenum image = faces == 6 ? GLenum(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face) : target;
-            any |= write_level(context, stream, image, level);
-        }
-        if (!any) return;
-    }
-}
-
-void write_texture_parameters(Context& context, Stream& stream, GLenum target) {
-    for (const Parameter& row : texture_parameters) {
-        if (!context.get_limits().has(row.since)) continue;
-        GLfloat values[4] = {};
-        context.real.GetTexParameterfv(target, row.name, values);
-        packets::TexParameterfv::write(stream, target, row.name, values);
-    }
-}
-
-} // namespace
 
 void write_lights(Context& context, Stream& stream) {
     const GlTable& gl = context.real;

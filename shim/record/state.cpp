@@ -48,7 +48,9 @@ bool is_client_capability(GLenum capability) {
 /// The reason not to play draws that a capability is, if it is one.
 unsigned program_capability(GLenum capability) {
     if (capability == GL_VERTEX_PROGRAM_ARB) return Player::vertex_program;
-    if (capability == GL_FRAGMENT_PROGRAM_ARB) return Player::fragment_program;
+    if (capability == GL_FRAGMENT_PROGRAM_ARB || capability == GL_FRAGMENT_PROGRAM_NV ||
+        capability == GL_FRAGMENT_SHADER_ATI || capability == GL_REGISTER_COMBINERS_NV)
+        return Player::fragment_program;
     return 0;
 }
 

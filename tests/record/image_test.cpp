@@ -67,6 +67,20 @@ const Case cases[] = {
          textured_quad(gl);
      }},
     // Not both at once: Mesa 22.3 swaps the wrong bytes then.
+    {"copied_into_the_default_texture", nullptr,
+     [](auto& gl) {
+         begin_scene(gl);
+         triangle(gl, 0, 0, 0, 2.5f);
+         gl.CopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 16, 16, 32, 32, 0);
+         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+         gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+         gl.Rectf(-2, -2, -1, -1);
+         gl.CopyTexSubImage2D(GL_TEXTURE_2D, 0, 4, 4, 8, 8, 16, 12);
+         gl.Enable(GL_TEXTURE_2D);
+         gl.Color3f(1, 1, 1);
+         textured_quad(gl);
+     }},
     {"unpacked_with_swapped_bytes", nullptr,
      [](auto& gl) {
          begin_scene(gl);
