@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "shim/preload/key_names.h"
 #include "shim/preload/output_name.h"
 #include "shim/preload/similarity.h"
 
@@ -95,12 +96,17 @@ constexpr Variable variables[] = {
     {"GLCAST_FRAME", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.frame) && o.frame >= 1; }},
     {"GLCAST_EVERY", "a whole number from 1",
-     [](const std::string& t, Options& o) {
-         o.captures = 0;
-         return parse_number(t, o.every) && o.every >= 1;
-     }},
+     [](const std::string& t, Options& o) { return parse_number(t, o.every) && o.every >= 1; }},
     {"GLCAST_CAPTURES", "a whole number from 0",
      [](const std::string& t, Options& o) { return parse_number(t, o.captures) && o.captures >= 0; }},
+    {"GLCAST_KEY", "a key, like F12, Print or x",
+     [](const std::string& t, Options& o) {
+         o.key = t;
+         return (o.key_symbol = key_symbol(t)) != 0;
+     }},
+    {"GLCAST_SIGNAL", "a signal that does not end programs, like USR1 or RTMIN+1",
+     [](const std::string& t, Options& o) { return (o.signal = signal_number(t)) != 0; }},
+    {"GLCAST_NUDGE", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.nudge); }},
     {"GLCAST_AFTER", "seconds, 0 or more",
      [](const std::string& t, Options& o) {
          return parse_number(t, o.after_seconds) && std::isfinite(o.after_seconds) && o.after_seconds >= 0;
@@ -142,6 +148,10 @@ Options read_options() {
         if (!text || !*text || variable.parse(text, options)) continue;
         options.error = std::string(variable.name) + "=" + text + ": expected " + variable.expected;
         return options;
+    }
+    if (options.captures < 0) {
+        const bool repeats = std::getenv("GLCAST_EVERY") || !options.key.empty() || options.signal;
+        options.captures = repeats && !options.quit ? 0 : 1;
     }
     const char* out = std::getenv("GLCAST_OUT");
     options.out = out ? out : "";

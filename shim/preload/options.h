@@ -1,5 +1,6 @@
 // What the environment asks for: each option of glcast-run is a variable.
 #pragma once
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
@@ -22,9 +23,14 @@ struct Options {
     int n = 512;        ///< GLCAST_N: samples per axis
     long frame = 1;     ///< GLCAST_FRAME: first frame that may be taken, from 1
     long every = 1;     ///< GLCAST_EVERY: of the frames of a window that may be taken, every so many-th
-    long captures = 1;  ///< GLCAST_CAPTURES: how many at most, 0: no limit; default 1, with GLCAST_EVERY 0
+    long captures = -1; ///< GLCAST_CAPTURES: how many at most, 0: no limit; default 1; with
+                        ///< GLCAST_EVERY, _KEY or _SIGNAL 0, but 1 with GLCAST_QUIT
     double after_seconds =
         0; ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
+    std::string key;          ///< GLCAST_KEY: "F12": a frame is cast when this key is pressed, none at the start
+    std::uint32_t key_symbol = 0; ///< X keysym of it
+    int signal = 0;     ///< GLCAST_SIGNAL: "USR1": likewise when this signal comes; 0: none
+    bool nudge = false; ///< GLCAST_NUDGE: make a program draw that only does when it is exposed or resized
     NormalMethod normals = NormalMethod::signed_lights; ///< GLCAST_NORMALS: signed, six
     int most_layers = EngineOptions().most_layers;      ///< GLCAST_LAYERS: a number, auto, slab
     LayerMethod layer_method = LayerMethod::peel;       ///< GLCAST_LAYERS: slab

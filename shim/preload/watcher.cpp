@@ -1,0 +1,113 @@
+#include "shim/preload/watcher.h"
+
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+
+#include <chrono>
+
+#include "shim/preload/status.h"
+#include "shim/preload/x_connection.h"
+
+namespace glcast::preload {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto idle_before_nudge = 300ms, wait_for_effect = 400ms;
+constexpr int most_nudges = 20; // for one frame: a program that stays still after these will not draw at all
+constexpr int look_ms = 50;
+
+class Watcher {
+  public:
+    Watcher(const Options& of, std::string display_name, Watched what)
+        : options(of), display(std::move(display_name)), watched(std::move(what)) {}
+
+    void run() {
+        std::string why;
+        connection = XConnection::open(display, why);
+        if (connection && !options.key.empty()) why = connection->watch_key(options.key_symbol);
+        if (!why.empty()) return report(why);
+        while (!watched.over() && connection->alive()) {
+            pollfd events = {connection->file_descriptor(), POLLIN, 0};
+            poll(&events, 1, look_ms);
+            for (int presses = connection->key_presses(); presses > 0; --presses) watched.fire();
+            watched.look_for_signals();
+            if (options.nudge) nudge_if_still();
+        }
+        if (wider && connection->alive()) connection->widen_windows(-1);
+    }
+
+  private:
+    void report(const std::string& why) {
+        const std::string line = "no key and no nudge: " + why;
+        say("%s", line.c_str());
+        if (!options.key.empty()) tell("failed", line);
+    }
+
+    /// First an exposure; if nothing is drawn, a pixel wider, and back again whatever happens.
+    void nudge_if_still() {
+        const long now_ended = watched.frames();
+        const auto now = Clock::now();
+        if (now_ended != ended || !watched.waiting()) {
+            ended = now_ended;
+            since = now;
+            next_exposes = true;
+            if (!watched.waiting()) nudges = 0;
+        }
+        if (wider && now - last_nudge >= wait_for_effect) {
+            connection->widen_windows(-1);
+            wider = false;
+        }
+        const bool still = now - since >= idle_before_nudge && now - last_nudge >= wait_for_effect;
+        if (!watched.waiting() || !still || wider || nudges >= most_nudges) return;
+        last_nudge = now;
+        ++nudges;
+        if (next_exposes) {
+            connection->expose_windows();
+        } else {
+            connection->widen_windows(1);
+            wider = true;
+        }
+        next_exposes = !next_exposes;
+    }
+
+    const Options& options;
+    const std::string display;
+    const Watched watched;
+    std::unique_ptr<XConnection> connection;
+    long ended = -1;
+    Clock::time_point since = Clock::now(), last_nudge = since;
+    int nudges = 0;
+    bool next_exposes = true, wider = false;
+};
+
+void* run_watcher(void* watcher) {
+    const std::unique_ptr<Watcher> owned(static_cast<Watcher*>(watcher));
+    try {
+        owned->run();
+    } catch (const std::exception& error) {
+        say_once("the key is no longer watched: %s", error.what());
+    }
+    return nullptr;
+}
+
+} // namespace
+
+/// The program's signals are not for this thread.
+void start_watcher(const Options& options, const std::string& display, Watched watched) {
+    auto* watcher = new Watcher(options, display, std::move(watched));
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pthread_t thread;
+    const bool started = pthread_create(&thread, nullptr, run_watcher, watcher) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (started)
+        pthread_detach(thread);
+    else
+        delete watcher;
+}
+
+} // namespace glcast::preload
