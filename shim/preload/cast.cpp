@@ -5,14 +5,18 @@
 #include <chrono>
 #include <cstdio>
 #include <glm/matrix.hpp>
+#include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "capture/capture_file.h"
+#include "shim/preload/axes.h"
+#include "shim/preload/choice.h"
 #include "shim/preload/output_name.h"
 #include "shim/preload/real.h"
-#include "shim/preload/scene.h"
+#include "shim/preload/contact_sheet.h"
+#include "shim/preload/strokes.h"
 #include "shim/preload/session.h"
-#include "shim/preload/similarity.h"
 #include "shim/preload/status.h"
 
 namespace glcast::preload {
@@ -22,62 +26,46 @@ namespace {
 /// infinity would make everything smaller than a pixel. The first that finds something is taken.
 constexpr double far_ratios[] = {100, 3'000, 1e6};
 
-/// A context of ours current with the program's drawables, and the program's own again at the end.
+/// Contexts of ours current with the program's drawables, and the program's own again at the end.
 class SiblingScope {
   public:
-    explicit SiblingScope(NativeContext& of) : context(of), program(of.system->current()) {
-        if (!context.system->can_return_to(program))
+    /// `first`: whose window system tells what is current.
+    explicit SiblingScope(const NativeContext& first) : system(*first.system), program(first.system->current()) {
+        if (!program.context) program.display = first.display;
+        if (program.context && !system.can_return_to(program))
             throw std::runtime_error("the program has destroyed its drawable");
-        if (!context.sibling) context.sibling = context.make_sibling();
-        if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
-        Binding binding = program;
-        binding.context = context.sibling;
-        if (context.system->bind(binding)) return;
-        restore();
-        throw std::runtime_error("the second context cannot be made current");
     }
-    ~SiblingScope() { restore(); }
+    ~SiblingScope() {
+        if (!system.bind(program)) say_once("the program's context could not be made current again");
+    }
     SiblingScope(const SiblingScope&) = delete;
     SiblingScope& operator=(const SiblingScope&) = delete;
 
-  private:
-    void restore() {
-        if (!context.system->bind(program)) say_once("the program's context could not be made current again");
+    /// A sibling of `part`'s context. Its own drawable may not fit the one that is current, which may not fit
+    /// its configuration; framebuffer objects need none.
+    void enter(const FramePart& part) {
+        NativeContext& context = *part.context;
+        if (entered == &context) return;
+        if (!context.sibling) context.sibling = context.make_sibling();
+        if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
+        entered = &context;
+        Binding binding{context.display, program.draw, program.read, context.sibling};
+        const bool same_display = program.context && program.display == context.display;
+        if (same_display && context.system->bind(binding)) return;
+        for (const std::uintptr_t drawable : {part.drawable, std::uintptr_t(0)}) {
+            binding.draw = binding.read = drawable;
+            if (context.system->can_return_to(binding) && context.system->bind(binding)) return;
+        }
+        throw std::runtime_error("the second context cannot be made current");
     }
-    NativeContext& context;
-    const Binding program;
+
+  private:
+    const WindowSystem& system;
+    Binding program;
+    const NativeContext* entered = nullptr;
 };
 
 CastResult failure(const std::string& why) { return {CastOutcome::failed, "nothing captured: " + why}; }
-
-/// The group that is asked for; -1 when the frame has none.
-int choose_group(const Scene& scene, int asked) {
-    if (scene.groups.empty()) return -1;
-    const int index = asked > 0 ? asked - 1 : 0;
-    if (index >= static_cast<int>(scene.groups.size())) return -1;
-    const Group& group = scene.groups[index];
-    const bool solid = asked > 0 ? group.triangles + group.outlined > 0 : group.is_scene();
-    return solid ? index : -1;
-}
-
-glm::dmat4 choose_eye_to_capture(const Scene& scene, const Options& options) {
-    if (options.frame_matrix == FrameMatrix::given) return options.given_matrix;
-    if (options.frame_matrix == FrameMatrix::eye || !scene.base_modelview) return glm::dmat4(1.0);
-    if (is_similarity(*scene.base_modelview)) return glm::inverse(*scene.base_modelview);
-    if (options.frame_matrix == FrameMatrix::base)
-        throw std::runtime_error("the base modelview is no similarity (--frame-matrix base)");
-    return glm::dmat4(1.0);
-}
-
-CastResult list_groups(const Scene& scene, long number) {
-    for (std::size_t i = 0; i < scene.groups.size(); ++i) {
-        const std::string text = std::to_string(i + 1) + " " + describe(scene.groups[i]);
-        say("group %s", text.c_str());
-        tell("group", text);
-    }
-    tell("listed", std::to_string(number));
-    return {CastOutcome::listed, "listed frame " + std::to_string(number)};
-}
 
 std::optional<Box> find_scene_box(const GlTable& gl, const DrawFunction& draw, const Group& group,
                                   EngineOptions options) {
@@ -90,8 +78,7 @@ std::optional<Box> find_scene_box(const GlTable& gl, const DrawFunction& draw, c
     return std::nullopt;
 }
 
-CaptureInfo make_info(const record::Frame& frame, long number, const Options& options,
-                      const EngineOptions& engine, const GlTable& gl) {
+CaptureInfo make_info(long number, const Options& options, const EngineOptions& engine, const GlTable& gl) {
     CaptureInfo info;
     info.n = engine.n;
     info.box = *engine.box;
@@ -102,13 +89,7 @@ CaptureInfo make_info(const record::Frame& frame, long number, const Options& op
     info.renderer = renderer ? reinterpret_cast<const char*>(renderer) : "";
     info.normals = options.normals == NormalMethod::six_lights ? "six" : "signed";
     info.glcast_version = GLCAST_VERSION;
-    info.not_understood = record::not_understood(frame);
     return info;
-}
-
-void tell_not_understood(const record::Frame& frame) {
-    for (const auto& [what, times] : record::not_understood(frame))
-        say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
 }
 
 /// Engine to file, image by image.
@@ -133,36 +114,151 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
                                        ": " + path + " " + text};
 }
 
-CastResult cast_in_sibling(const record::Frame& frame, long number, const Options& options) {
-    const GlTable& gl = real_table();
-    const Scene scene = analyse(frame, gl);
-    const int group = choose_group(scene, options.group);
-    if (group < 0) return {CastOutcome::nothing_solid, ""};
-    if (options.list) return list_groups(scene, number);
+/// A frame in the making of its capture.
+class Cast {
+  public:
+    Cast(const std::vector<FramePart>& frame_parts, long frame_number, const Options& of)
+        : parts(frame_parts), number(frame_number), options(of), gl(real_table()),
+          siblings(*frame_parts.front().context) {}
 
-    const DrawFunction draw = [&](const GlTable& table) { replay_group(frame, scene, group, table); };
-    EngineOptions engine;
-    engine.n = options.n;
-    engine.normals = options.normals;
-    engine.most_layers = options.most_layers;
-    engine.layer_method = options.layer_method;
-    engine.use_shaders = options.use_shaders;
-    engine.eye_to_capture = choose_eye_to_capture(scene, options);
-    engine.box = options.box ? options.box : find_scene_box(gl, draw, scene.groups[group], engine);
-    if (!engine.box) return {CastOutcome::nothing_solid, ""};
-    tell("casting", std::to_string(number));
-    tell_not_understood(frame);
-    return write_capture(gl, draw, make_info(frame, number, options, engine, gl), engine,
-                         output_name(options.out, getpid(), number));
-}
+    CastResult run() {
+        for (const FramePart& part : parts) {
+            siblings.enter(part);
+            scenes.push_back(analyse(*part.frame, gl));
+        }
+        candidates = merge(scenes, [&](int a, int b) {
+            return record::share_objects(*parts[a].context->shadow, *parts[b].context->shadow);
+        });
+        if (candidates.empty()) return nothing_solid();
+        rank(candidates, options.include, !options.list_picture.empty(),
+             [&](const Candidate& candidate) { return picture_of(candidate); });
+        const bool has_scene = is_scene(candidates.front());
+        if (!has_scene && options.group == 0) return nothing_solid();
+        if (options.list) return list_groups();
+        if (options.group > static_cast<int>(candidates.size())) return has_scene ? no_such_group() : nothing_solid();
+        return cast(candidates[options.group > 0 ? options.group - 1 : 0]);
+    }
+
+  private:
+    const std::vector<FramePart>& parts;
+    const long number;
+    const Options& options;
+    const GlTable& gl;
+    SiblingScope siblings;
+    std::vector<Scene> scenes;
+    std::vector<Candidate> candidates;
+
+    void enter_for(const Candidate& candidate) {
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (candidate.in_part[part] >= 0) return siblings.enter(parts[part]);
+    }
+
+    DrawFunction drawing(const Candidate& candidate, Wanted wanted) const {
+        wanted.transparent = options.transparent;
+        return [this, &candidate, wanted](const GlTable& table) {
+            for (std::size_t part = 0; part < parts.size(); ++part)
+                if (candidate.in_part[part] >= 0)
+                    replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table);
+        };
+    }
+
+    Thumbnail picture_of(const Candidate& candidate) {
+        enter_for(candidate);
+        constexpr int size = 192;
+        const Group& group = candidate.group;
+        return draw_thumbnail(gl, drawing(candidate, {.everything = true}), group.viewport, group.depth_reversed,
+                              size);
+    }
+
+    CastResult nothing_solid() const {
+        CastResult result{CastOutcome::nothing_solid, ""};
+        for (const Candidate& c : candidates) {
+            (is_scene(c) ? result.held.solid : result.held.flat) += c.group.triangles + c.group.outlined;
+            result.held.lines += c.group.lines;
+            result.held.points += c.group.points;
+        }
+        for (const Scene& scene : scenes) result.held.pixels += scene.pixels;
+        for (const FramePart& part : parts)
+            for (const auto& [what, times] : record::not_understood(*part.frame))
+                if (what.starts_with("a draw under")) result.held.shaders += times;
+        return result;
+    }
+
+    CastResult no_such_group() const {
+        const std::size_t count = candidates.size();
+        return failure("there is no group " + std::to_string(options.group) + ", the frame has " +
+                       std::to_string(count) + (count == 1 ? " group" : " groups") + " (--list shows them)");
+    }
+
+    CastResult list_groups() const {
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const Candidate& c = candidates[i];
+            const std::string text = std::to_string(i + 1) + " " + describe(c.group) +
+                                     (c.backdrop ? ", a backdrop" : c.inset ? ", an inset" : "");
+            say("group %s", text.c_str());
+            tell("group", text);
+        }
+        if (!options.list_picture.empty()) {
+            const std::string trouble = write_contact_sheet(candidates, options.list_picture);
+            if (!trouble.empty()) return failure(trouble);
+        }
+        tell("listed", std::to_string(number));
+        return {CastOutcome::listed, "listed frame " + std::to_string(number)};
+    }
+
+    CastResult cast(const Candidate& candidate) {
+        enter_for(candidate);
+        const Group& group = candidate.group;
+        EngineOptions engine;
+        engine.n = options.n;
+        engine.normals = options.normals;
+        engine.most_layers = options.most_layers;
+        engine.layer_method = options.layer_method;
+        engine.use_shaders = options.use_shaders;
+        engine.mirrored_projection = is_mirrored(group.projection, group.depth_reversed);
+        engine.eye_to_capture =
+            choose_eye_to_capture({group.base_modelview, engine.mirrored_projection}, options);
+        const Include& include = options.include;
+        const DrawFunction as_drawn =
+            drawing(candidate, {.lines = include.lines, .points = include.points});
+        engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
+        if (!engine.box) return nothing_solid();
+        tell("casting", std::to_string(number));
+        return write(candidate, include.any() ? thickened(candidate, engine) : as_drawn, engine);
+    }
+
+    /// Lines and points a sample and a half wide: what is thinner than a sample falls between the rays.
+    DrawFunction thickened(const Candidate& candidate, const EngineOptions& engine) const {
+        const Include& include = options.include;
+        const Wanted thin{.solid = false, .lines = include.lines, .points = include.points};
+        const auto strokes = std::make_shared<const std::vector<Stroke>>(
+            collect_strokes(gl, drawing(candidate, thin), engine));
+        const double half_width = 0.75 * engine.box->size / engine.n;
+        return [=, solid = drawing(candidate, {})](const GlTable& table) {
+            solid(table);
+            draw_strokes(*strokes, half_width, engine.eye_to_capture, table);
+        };
+    }
+
+    CastResult write(const Candidate& candidate, const DrawFunction& draw, const EngineOptions& engine) const {
+        std::map<std::string, long> not_understood;
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (candidate.in_part[part] >= 0)
+                for (const auto& [what, times] : record::not_understood(*parts[part].frame))
+                    not_understood[what] += times;
+        for (const auto& [what, times] : not_understood)
+            say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
+        CaptureInfo info = make_info(number, options, engine, gl);
+        info.not_understood = std::move(not_understood);
+        return write_capture(gl, draw, info, engine, output_name(options.out, getpid(), number));
+    }
+};
 
 } // namespace
 
-CastResult cast_frame(NativeContext& context, const record::Frame& frame, long number,
-                      const Options& options) {
+CastResult cast_frame(const std::vector<FramePart>& parts, long number, const Options& options) {
     try {
-        const SiblingScope sibling(context);
-        return cast_in_sibling(frame, number, options);
+        return Cast(parts, number, options).run();
     } catch (const std::exception& error) {
         return failure(error.what());
     }

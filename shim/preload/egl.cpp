@@ -91,6 +91,7 @@ class Egl : public WindowSystem {
         if (!alive) real().eglGetError(); // ours
         return alive;
     }
+    std::string server(void*) const override { return {}; }
     void destroy(void* display, void* context) const override { real().eglDestroyContext(display, context); }
 };
 const Egl egl;

@@ -103,6 +103,8 @@ class Glx : public WindowSystem {
         return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));
     }
 
+    std::string server(void* display) const override { return x_display_name(display); }
+
     void destroy(void* display, void* context) const override {
         XErrorTrap trap(display);
         real().glXDestroyContext(as_display(display), static_cast<GLXContext>(context));

@@ -82,6 +82,23 @@ bool parse_layers(const std::string& text, Options& options) {
            options.most_layers <= max_layers;
 }
 
+bool parse_list_option(const std::string& text, Options& options) {
+    options.list = text.ends_with(".png");
+    if (!options.list) return parse_switch(text, options.list);
+    options.list_picture = text;
+    return true;
+}
+
+bool parse_include(const std::string& text, Options& options) {
+    options.include = {.lines = text.starts_with("lines"), .points = text.ends_with("points")};
+    return text == "lines" || text == "points" || text == "lines,points";
+}
+
+bool parse_transparent(const std::string& text, Options& options) {
+    options.transparent = text == "keep" ? Transparent::keep : Transparent::skip;
+    return text == "keep" || text == "skip";
+}
+
 /// The variables beside GLCAST_OUT and what each may hold.
 struct Variable {
     const char* name;
@@ -118,7 +135,9 @@ constexpr Variable variables[] = {
     {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1", parse_box},
     {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
      parse_frame_matrix},
-    {"GLCAST_LIST", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.list); }},
+    {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
+    {"GLCAST_INCLUDE", "lines, points or lines,points", parse_include},
+    {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
     {"GLCAST_READ_ENDS", "0 or 1",
@@ -141,6 +160,13 @@ std::string check_output(const std::string& out) {
 
 } // namespace
 
+namespace {
+bool is_set(const char* name) {
+    const char* text = std::getenv(name);
+    return text && *text;
+}
+} // namespace
+
 Options read_options() {
     Options options;
     for (const Variable& variable : variables) {
@@ -150,12 +176,13 @@ Options read_options() {
         return options;
     }
     if (options.captures < 0) {
-        const bool repeats = std::getenv("GLCAST_EVERY") || !options.key.empty() || options.signal;
+        const bool repeats = is_set("GLCAST_EVERY") || !options.key.empty() || options.signal;
         options.captures = repeats && !options.quit ? 0 : 1;
     }
     const char* out = std::getenv("GLCAST_OUT");
     options.out = out ? out : "";
-    if (!options.out.empty() && !options.list) options.error = check_output(options.out);
+    const std::string& file = options.list ? options.list_picture : options.out;
+    if (!file.empty()) options.error = check_output(file);
     options.armed = options.error.empty() && (options.list || !options.out.empty());
     return options;
 }

@@ -17,6 +17,19 @@ enum class FrameMatrix {
     given,     ///< 16 numbers, column by column as in glLoadMatrix, from eye space to the capture frame
 };
 
+/// What is cast beside filled primitives.
+struct Include {
+    bool lines = false, points = false;
+    bool any() const { return lines || points; }
+};
+
+/// When what the program blends is solid.
+enum class Transparent {
+    by_alpha, ///< where its alpha is a half or more
+    keep,     ///< always
+    skip,     ///< never
+};
+
 struct Options {
     bool armed = false; ///< GLCAST_OUT or GLCAST_LIST is set, and nothing is wrong
     std::string out;    ///< GLCAST_OUT: file to write; %p is the process, %f the frame, %% a per cent sign
@@ -40,6 +53,9 @@ struct Options {
     FrameMatrix frame_matrix = FrameMatrix::automatic; ///< GLCAST_FRAME_MATRIX: eye, base, or 16 numbers
     glm::dmat4 given_matrix{1.0};
     bool list = false; ///< GLCAST_LIST: print the groups of the scene, capture nothing
+    std::string list_picture; ///< GLCAST_LIST=FILE.png: also a picture of each
+    Include include;          ///< GLCAST_INCLUDE: lines, points, or both with a comma between
+    Transparent transparent = Transparent::by_alpha; ///< GLCAST_TRANSPARENT: keep, skip
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
-#include <numeric>
 
 #include "shim/preload/scene_table.h"
 
@@ -19,7 +19,18 @@ glm::dmat4 get_matrix(const GlTable& gl, GLenum name) {
     return matrix;
 }
 
+GLint get_int(const GlTable& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
 bool is_perspective(const glm::dmat4& p) { return p[0][3] != 0 || p[1][3] != 0 || p[2][3] != 0; }
+
+bool contains(const std::array<GLint, 4>& outer, const std::array<GLint, 4>& inner) {
+    return outer[0] <= inner[0] && outer[1] <= inner[1] && outer[0] + outer[2] >= inner[0] + inner[2] &&
+           outer[1] + outer[3] >= inner[1] + inner[3];
+}
 
 /// Notes every draw with the state that it meets, and draws none.
 class Analysis final : public DrawGate {
@@ -29,113 +40,156 @@ class Analysis final : public DrawGate {
 
     bool draws_nothing() const override { return true; }
     void framebuffer_bound(GLuint name) override { framebuffer = name; }
+    void pixels_drawn() override { ++scene.pixels; }
+
+    /// What the prologue pushed and set is not the frame's own.
+    void calls_begin() { pushed.reset(); }
 
     void before_push() override {
-        GLint matrix_mode = 0;
-        if (!scene.base_modelview) inner.GetIntegerv(GL_MATRIX_MODE, &matrix_mode);
-        if (matrix_mode == GL_MODELVIEW) scene.base_modelview = get_matrix(inner, GL_MODELVIEW_MATRIX);
+        if (pushed || get_int(inner, GL_MATRIX_MODE) != GL_MODELVIEW) return;
+        const glm::dmat4 modelview = get_matrix(inner, GL_MODELVIEW_MATRIX);
+        if (modelview != glm::dmat4(1.0)) pushed = modelview;
     }
 
-    bool keep(bool polygons, long triangles) override {
-        const int index = find_group();
-        const auto kind = !polygons          ? Draw::Kind::lines_or_points
-                          : fills_polygons() ? Draw::Kind::filled
-                                             : Draw::Kind::outlined;
-        scene.draws.push_back({index, kind});
-        ++scene.groups[index].draws;
-        add_triangles(triangles);
-        if (!scene.base_modelview && scene.groups[index].kind != ProjectionKind::flat)
-            scene.base_modelview = get_matrix(inner, GL_MODELVIEW_MATRIX);
+    /// What was drawn before to the same place is no longer seen.
+    void cleared(GLbitfield buffers) override {
+        if (!(buffers & GL_COLOR_BUFFER_BIT)) return;
+        GLboolean mask[4] = {};
+        inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
+        if (!(mask[0] && mask[1] && mask[2])) return;
+        std::array<GLint, 4> scissor{};
+        const bool scissored = inner.IsEnabled(GL_SCISSOR_TEST);
+        if (scissored) inner.GetIntegerv(GL_SCISSOR_BOX, scissor.data());
+        const GLint buffer = get_int(inner, GL_DRAW_BUFFER);
+        for (Group& group : scene.groups)
+            if (group.framebuffer == framebuffer && group.draw_buffer == buffer &&
+                (!scissored || contains(scissor, group.viewport)))
+                group.erased = true;
+    }
+
+    bool keep(GLenum mode, long primitives) override {
+        const bool tests = inner.IsEnabled(GL_DEPTH_TEST);
+        const GLint function = get_int(inner, GL_DEPTH_FUNC);
+        const int index = find_group(tests, function);
+        Group& group = scene.groups[index];
+        Draw draw;
+        draw.group = index;
+        draw.kind = kind_of(mode);
+        draw.tests_depth = tests && function != GL_ALWAYS;
+        GLboolean mask = GL_TRUE;
+        inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
+        draw.writes_depth = tests && mask;
+        draw.before_depth = !group.writes_depth;
+        if (draw.kind == Draw::Kind::filled || draw.kind == Draw::Kind::outlined)
+            group.writes_depth |= draw.writes_depth;
+        if (!group.base_modelview)
+            group.base_modelview = pushed ? *pushed : get_matrix(inner, GL_MODELVIEW_MATRIX);
+        pushed.reset();
+        ++group.draws;
+        scene.draws.push_back(draw);
+        add_primitives(primitives);
         return false;
     }
 
-    void add_triangles(long triangles) override {
+    void add_primitives(long number) override {
         if (scene.draws.empty()) return; // a lone glEnd
         const Draw& draw = scene.draws.back();
         Group& group = scene.groups[draw.group];
-        if (draw.kind == Draw::Kind::filled) group.triangles += triangles;
-        if (draw.kind == Draw::Kind::outlined) group.outlined += triangles;
+        (draw.kind == Draw::Kind::filled     ? group.triangles
+         : draw.kind == Draw::Kind::outlined ? group.outlined
+         : draw.kind == Draw::Kind::line     ? group.lines
+                                             : group.points) += number;
     }
 
   private:
-    bool fills_polygons() const {
+    Draw::Kind kind_of(GLenum mode) const {
+        if (mode == GL_POINTS) return Draw::Kind::point;
+        if (!has_faces(mode)) return Draw::Kind::line;
         GLint modes[2] = {GL_FILL, GL_FILL};
         inner.GetIntegerv(GL_POLYGON_MODE, modes);
-        return modes[0] == GL_FILL || modes[1] == GL_FILL;
+        return modes[0] == GL_FILL || modes[1] == GL_FILL ? Draw::Kind::filled : Draw::Kind::outlined;
     }
 
-    int find_group() {
+    int find_group(bool tests_depth, GLint depth_function) {
         Group now;
         now.framebuffer = framebuffer;
+        now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
         inner.GetIntegerv(GL_VIEWPORT, now.viewport.data());
         now.projection = get_matrix(inner, GL_PROJECTION_MATRIX);
-        now.kind = is_perspective(now.projection)   ? ProjectionKind::perspective
-                   : inner.IsEnabled(GL_DEPTH_TEST) ? ProjectionKind::orthographic
-                                                    : ProjectionKind::flat;
-        const auto same = [&](const Group& g) {
-            return g.framebuffer == now.framebuffer && g.viewport == now.viewport && g.kind == now.kind &&
-                   g.projection == now.projection;
-        };
+        now.kind = is_perspective(now.projection) ? ProjectionKind::perspective
+                   : tests_depth                  ? ProjectionKind::orthographic
+                                                  : ProjectionKind::flat;
+        const auto same = [&](const Group& g) { return !g.erased && g.same_place(now); };
         const auto at = std::find_if(scene.groups.rbegin(), scene.groups.rend(), same);
         if (at != scene.groups.rend()) return static_cast<int>(scene.groups.rend() - at) - 1;
+        GLfloat range[2] = {0, 1};
+        inner.GetFloatv(GL_DEPTH_RANGE, range);
+        const bool greater = tests_depth && (depth_function == GL_GREATER || depth_function == GL_GEQUAL);
+        now.depth_reversed = greater != (range[0] > range[1]);
         scene.groups.push_back(now);
         return static_cast<int>(scene.groups.size()) - 1;
     }
 
     GLuint framebuffer = 0;
+    std::optional<glm::dmat4> pushed; ///< at the first push since the last draw
 };
 
-/// Lets through the draws of one group: filled ones, or outlined ones where it has no filled ones.
+/// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
-    GroupFilter(const GlTable& gl, const Scene& of, int index)
-        : DrawGate(gl), scene(of), group(index),
-          wanted(of.groups[index].triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined) {}
+    GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what)
+        : DrawGate(gl), scene(of), group(index), wanted(what) {}
 
-    bool keep(bool, long) override {
+    bool blends(bool on) override {
+        blending = on;
+        return wanted.transparent == Transparent::by_alpha;
+    }
+    bool blending_restored() override {
+        return wanted.transparent != Transparent::by_alpha;
+    }
+
+    bool keep(GLenum, long) override {
         if (next >= scene.draws.size()) return false;
         const Draw& draw = scene.draws[next++];
-        return draw.group == group && draw.kind == wanted;
+        if (draw.group != group) return false;
+        if (wanted.transparent == Transparent::skip && blending) return false;
+        if (wanted.everything) return true;
+        if (draw.kind == Draw::Kind::line) return wanted.lines;
+        if (draw.kind == Draw::Kind::point) return wanted.points;
+        return wanted.solid && is_solid(draw, scene.groups[group]);
     }
 
   private:
+    static bool is_solid(const Draw& draw, const Group& of) {
+        if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
+        if (!of.writes_depth || draw.writes_depth) return true;
+        return draw.tests_depth && !draw.before_depth;
+    }
+
     const Scene& scene;
     const int group;
-    const Draw::Kind wanted;
+    const Wanted wanted;
     std::size_t next = 0;
+    bool blending = false;
 };
 
-/// Sorted so that the first is what people mean; numbers in `draws` follow.
-void sort_groups(Scene& scene) {
-    std::vector<int> order(scene.groups.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto rank = [&](int i) {
-        const Group& g = scene.groups[i];
-        return std::tuple(g.is_scene(), g.triangles, g.outlined, g.draws);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) > rank(b); });
-    std::vector<Group> sorted;
-    std::vector<int> new_index(order.size());
-    for (const int old : order) {
-        new_index[old] = static_cast<int>(sorted.size());
-        sorted.push_back(scene.groups[old]);
-    }
-    scene.groups = std::move(sorted);
-    for (Draw& draw : scene.draws) draw.group = new_index[draw.group];
-}
-
 } // namespace
+
+bool Group::same_place(const Group& other) const {
+    return framebuffer == other.framebuffer && draw_buffer == other.draw_buffer && viewport == other.viewport &&
+           kind == other.kind && projection == other.projection;
+}
 
 // The prologue pushes matrices of its own where the frame starts with some on the stack: none of them is the base.
 Scene analyse(const record::Frame& frame, const GlTable& gl) {
     Analysis analysis(gl);
-    record::replay(frame, gated_table(analysis), [&] { analysis.scene.base_modelview.reset(); });
-    sort_groups(analysis.scene);
+    record::replay(frame, gated_table(analysis), [&] { analysis.calls_begin(); });
     return std::move(analysis.scene);
 }
 
-void replay_group(const record::Frame& frame, const Scene& scene, int group, const GlTable& gl) {
-    GroupFilter filter(gl, scene, group);
+void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
+                  const GlTable& gl) {
+    GroupFilter filter(gl, scene, group, wanted);
     record::replay(frame, gated_table(filter));
 }
 
@@ -147,22 +201,31 @@ std::string describe(const Group& group) {
     for (const GLint number : group.viewport) text += " " + std::to_string(number);
     if (group.framebuffer) text += ", framebuffer " + std::to_string(group.framebuffer);
     if (group.outlined) text += ", " + std::to_string(group.outlined) + " more as outlines";
+    if (group.lines) text += ", " + std::to_string(group.lines) + " lines";
+    if (group.points) text += ", " + std::to_string(group.points) + " points";
+    if (group.erased) text += ", painted over";
     return text;
 }
 
 std::optional<Box> view_volume(const Group& group, const glm::dmat4& eye_to_capture, double far_ratio) {
     const glm::dmat4 to_eye = glm::inverse(group.projection);
+    // Where all rays meet: what the projection takes to (0, 0, z, 0). The view may be part of it, so it need not
+    // be the origin.
+    const glm::dvec4 eye_clip = to_eye * glm::dvec4(0, 0, -1, 0);
+    const glm::dvec3 eye = glm::dvec3(eye_clip) / eye_clip.w;
     glm::dvec3 lo(INFINITY), hi(-INFINITY);
     for (int corner = 0; corner < 4; ++corner) {
         const double x = corner & 1 ? 1 : -1, y = corner & 2 ? 1 : -1;
-        const glm::dvec4 near_clip = to_eye * glm::dvec4(x, y, -1, 1),
-                         far_clip = to_eye * glm::dvec4(x, y, 1, 1);
+        const double front = group.depth_reversed ? 1 : -1;
+        const glm::dvec4 near_clip = to_eye * glm::dvec4(x, y, front, 1),
+                         far_clip = to_eye * glm::dvec4(x, y, -front, 1);
         const glm::dvec3 near_point = glm::dvec3(near_clip) / near_clip.w;
         glm::dvec3 far_point = glm::dvec3(far_clip) / far_clip.w;
         if (group.kind == ProjectionKind::perspective) {
             // An infinite far plane has w = 0, and rounding may put it behind the eye.
-            const double ratio = far_point.z / near_point.z;
-            if (!(ratio > 0 && ratio < far_ratio)) far_point = near_point * far_ratio;
+            const glm::dvec3 ray = near_point - eye;
+            const double ratio = glm::dot(far_point - eye, ray) / glm::dot(ray, ray);
+            if (!(ratio > 0 && ratio < far_ratio)) far_point = eye + ray * far_ratio;
         }
         for (const glm::dvec3& point : {near_point, far_point}) {
             const glm::dvec3 p(eye_to_capture * glm::dvec4(point, 1));

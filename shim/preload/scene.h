@@ -1,5 +1,5 @@
-// Which draws of a frame are the scene. Draws are grouped by framebuffer, viewport and projection; one group
-// is cast.
+// Which draws of a recorded frame belong together. Draws are grouped by framebuffer, viewport and projection; one
+// group is cast (choice.h says which).
 #pragma once
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -9,6 +9,7 @@
 
 #include "capture/gl/gl_table.h"
 #include "capture/view.h"
+#include "shim/preload/options.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -21,39 +22,62 @@ enum class ProjectionKind {
 
 struct Group {
     GLuint framebuffer = 0;
+    GLint draw_buffer = 0;
     std::array<GLint, 4> viewport{};
     glm::dmat4 projection{1.0};
     ProjectionKind kind = ProjectionKind::flat;
-    long draws = 0;     ///< of any primitive
-    long triangles = 0; ///< filled
-    long outlined = 0;  ///< triangles drawn as lines or points by glPolygonMode
-    bool is_scene() const { return kind != ProjectionKind::flat && triangles + outlined > 0; }
+    bool depth_reversed = false; ///< the greater depth is in front
+    bool erased = false;         ///< a clear of the whole viewport came after: nothing of it is seen
+    long draws = 0;              ///< of any primitive
+    long triangles = 0;          ///< filled
+    long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
+    long lines = 0, points = 0;
+    bool writes_depth = false; ///< any filled draw
+    /// What the model's axes are taken from: the modelview at the first glPushMatrix before the group's first
+    /// draw that finds more than an identity, else the modelview of that draw.
+    std::optional<glm::dmat4> base_modelview;
+
+    /// Drawn in space, not on the screen.
+    bool is_spatial() const { return kind != ProjectionKind::flat; }
+    bool same_place(const Group& other) const;
 };
 
 /// What one draw of the frame is.
 struct Draw {
     int group = 0; ///< index into Scene::groups
-    enum class Kind { filled, outlined, lines_or_points } kind = Kind::filled;
+    enum class Kind { filled, outlined, line, point } kind = Kind::filled;
+    bool tests_depth = false, writes_depth = false;
+    bool before_depth = false; ///< nothing of the group had written depth yet
 };
 
 struct Scene {
-    std::vector<Group> groups; ///< what may be cast first, then by triangles, most first
+    std::vector<Group> groups; ///< in the order of their first draws
     std::vector<Draw> draws;   ///< in the order of the frame
-    /// Modelview at the first glPushMatrix or the first 3-D draw, whichever came first.
-    std::optional<glm::dmat4> base_modelview;
+    long pixels = 0;           ///< rectangles of pixels
 };
 
 /// Replays the frame in the current context without drawing anything.
 Scene analyse(const record::Frame& frame, const GlTable& gl);
 
-/// Replays the frame, but of its draws only the solid ones of one group.
-void replay_group(const record::Frame& frame, const Scene& scene, int group, const GlTable& gl);
+/// Which draws of a group are played.
+struct Wanted {
+    /// Its filled draws, or the outlined ones where it has none. Of a group that writes depth, what neither tests
+    /// nor writes it is not solid (overlays), nor what was drawn before and wrote none (skies, backgrounds).
+    bool solid = true;
+    bool lines = false, points = false;
+    bool everything = false; ///< as the program draws it
+    Transparent transparent = Transparent::by_alpha;
+};
+
+/// Replays the frame, but of its draws only some of one group.
+void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
+                  const GlTable& gl);
 
 /// "3360 triangles in 12 draws, perspective, viewport 0 0 800 600".
 std::string describe(const Group& group);
 
 /// A cube around the group's view volume in the capture frame, its far plane taken no further than
-/// `far_ratio` times as far away as its near plane. Nothing when the projection has no inverse.
+/// `far_ratio` times as far away from the eye as its near plane. Nothing when the projection has no inverse.
 std::optional<Box> view_volume(const Group& group, const glm::dmat4& eye_to_capture, double far_ratio);
 
 } // namespace glcast::preload

@@ -9,8 +9,6 @@ namespace {
 
 constinit thread_local DrawGate* gate = nullptr;
 
-bool has_faces(GLenum mode) { return triangle_count(mode, 1'000'000) > 0; }
-
 // Each family of calls is a template over the member of GlTable that it stands for, so that a family is
 // written once and the calls are listed in a table below.
 
@@ -24,10 +22,10 @@ struct PlainDraw<Member, Count, Instances, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
         const auto all = std::tie(arguments...);
         const GLenum mode = std::get<0>(all);
-        long triangles = has_faces(mode) ? 1 : 0;
-        if constexpr (Count >= 0) triangles = triangle_count(mode, std::get<Count>(all));
-        if constexpr (Instances >= 0) triangles *= std::max<long>(0, std::get<Instances>(all));
-        if (gate->keep(has_faces(mode), triangles)) (gate->inner.*Member)(arguments...);
+        long primitives = 1;
+        if constexpr (Count >= 0) primitives = primitive_count(mode, std::get<Count>(all));
+        if constexpr (Instances >= 0) primitives *= std::max<long>(0, std::get<Instances>(all));
+        if (gate->keep(mode, primitives)) (gate->inner.*Member)(arguments...);
     }
 };
 
@@ -40,10 +38,10 @@ struct MultiDraw<Member, Counts, Number, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
         const auto all = std::tie(arguments...);
         const GLenum mode = std::get<0>(all);
-        long triangles = 0;
+        long primitives = 0;
         for (GLsizei i = 0; i < std::get<Number>(all); ++i)
-            triangles += triangle_count(mode, std::get<Counts>(all)[i]);
-        if (gate->keep(has_faces(mode), triangles)) (gate->inner.*Member)(arguments...);
+            primitives += primitive_count(mode, std::get<Counts>(all)[i]);
+        if (gate->keep(mode, primitives)) (gate->inner.*Member)(arguments...);
     }
 };
 
@@ -52,7 +50,7 @@ template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlT
 struct Rectangle;
 template <auto Member, class R, class... A> struct Rectangle<Member, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
-        if (gate->keep(true, 2)) (gate->inner.*Member)(arguments...);
+        if (gate->keep(GL_TRIANGLES, 2)) (gate->inner.*Member)(arguments...);
     }
 };
 
@@ -81,6 +79,13 @@ template <auto Member, class R, class... A> struct Attribute<Member, R (*)(A...)
 template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
 struct Dropped;
 template <auto Member, class R, class... A> struct Dropped<Member, R (*)(A...)> {
+    static R APIENTRY call(A...) { gate->pixels_drawn(); }
+};
+
+/// What must not happen while nothing is drawn.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Ignored;
+template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
     static R APIENTRY call(A...) {}
 };
 
@@ -96,24 +101,58 @@ template <auto Member, class R, class... A> struct BindFramebuffer<Member, R (*)
 void APIENTRY begin(GLenum mode) {
     gate->mode = mode;
     gate->vertices = 0;
-    gate->swallowing = !gate->keep(has_faces(mode), 0);
+    gate->swallowing = !gate->keep(mode, 0);
     if (!gate->swallowing) gate->inner.Begin(mode);
 }
 
 void APIENTRY end() {
-    gate->add_triangles(triangle_count(gate->mode, gate->vertices));
+    gate->add_primitives(primitive_count(gate->mode, gate->vertices));
     if (!gate->swallowing) gate->inner.End();
     gate->swallowing = false;
 }
 
+/// Mesh modes as those of glBegin.
+GLenum drawn_as(GLenum mesh_mode) {
+    return mesh_mode == GL_FILL ? GL_TRIANGLES : mesh_mode == GL_LINE ? GL_LINES : GL_POINTS;
+}
+
 void APIENTRY eval_mesh_1(GLenum mode, GLint i1, GLint i2) {
-    if (gate->keep(false, 0)) gate->inner.EvalMesh1(mode, i1, i2);
+    if (gate->keep(drawn_as(mode), std::max(0, i2 - i1))) gate->inner.EvalMesh1(mode, i1, i2);
 }
 
 void APIENTRY eval_mesh_2(GLenum mode, GLint i1, GLint i2, GLint j1, GLint j2) {
-    const bool filled = mode == GL_FILL;
-    const long triangles = filled ? 2L * std::max(0, i2 - i1) * std::max(0, j2 - j1) : 0;
-    if (gate->keep(filled, triangles)) gate->inner.EvalMesh2(mode, i1, i2, j1, j2);
+    const long primitives = 2L * std::max(0, i2 - i1) * std::max(0, j2 - j1);
+    if (gate->keep(drawn_as(mode), primitives)) gate->inner.EvalMesh2(mode, i1, i2, j1, j2);
+}
+
+void APIENTRY clear(GLbitfield buffers) {
+    gate->cleared(buffers);
+    if (!gate->draws_nothing()) gate->inner.Clear(buffers);
+}
+
+void switch_cap(GLenum cap, bool on) {
+    if (cap == GL_BLEND) {
+        gate->blend = on;
+        if (!gate->blends(on)) return;
+    }
+    on ? gate->inner.Enable(cap) : gate->inner.Disable(cap);
+}
+void APIENTRY enable(GLenum cap) { switch_cap(cap, true); }
+void APIENTRY disable(GLenum cap) { switch_cap(cap, false); }
+
+void APIENTRY push_attrib(GLbitfield mask) {
+    gate->saved_blends.push_back({(mask & (GL_ENABLE_BIT | GL_COLOR_BUFFER_BIT)) != 0, gate->blend});
+    gate->inner.PushAttrib(mask);
+}
+
+void APIENTRY pop_attrib() {
+    gate->inner.PopAttrib();
+    if (gate->saved_blends.empty()) return;
+    const DrawGate::SavedBlend saved = gate->saved_blends.back();
+    gate->saved_blends.pop_back();
+    if (!saved.is_saved) return;
+    gate->blend = saved.blend;
+    if (gate->blending_restored()) gate->blends(saved.blend);
 }
 
 void APIENTRY push_matrix() {
@@ -197,7 +236,6 @@ void APIENTRY push_matrix() {
 #define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)
 #define GLCAST_PIXELS(X) X(Bitmap) X(DrawPixels) X(CopyPixels)
 #define GLCAST_CLEARS(X)                                                                                     \
-    X(Clear)                                                                                                 \
     X(ClearBufferfv)                                                                                         \
     X(ClearBufferiv)                                                                                         \
     X(ClearBufferuiv) X(ClearBufferfi) X(Accum) X(BlitFramebuffer) X(BlitFramebufferEXT) X(Flush) X(Finish)
@@ -230,10 +268,17 @@ void install_vertices(GlTable& table) {
 void install_others(GlTable& table, bool draws_nothing) {
 #define GLCAST_INSTALL(NAME) table.NAME = Dropped<&GlTable::NAME>::call;
     GLCAST_PIXELS(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+#define GLCAST_INSTALL(NAME) table.NAME = Ignored<&GlTable::NAME>::call;
     if (draws_nothing) {
         GLCAST_CLEARS(GLCAST_INSTALL)
     }
 #undef GLCAST_INSTALL
+    table.Clear = clear;
+    table.Enable = enable;
+    table.Disable = disable;
+    table.PushAttrib = push_attrib;
+    table.PopAttrib = pop_attrib;
     table.BindFramebuffer = BindFramebuffer<&GlTable::BindFramebuffer>::call;
     table.BindFramebufferEXT = BindFramebuffer<&GlTable::BindFramebufferEXT>::call;
     table.PushMatrix = push_matrix;
@@ -241,9 +286,36 @@ void install_others(GlTable& table, bool draws_nothing) {
 
 } // namespace
 
-long triangle_count(GLenum mode, long vertices) {
+bool has_faces(GLenum mode) {
     switch (mode) {
+    case GL_POINTS:
+    case GL_LINES:
+    case GL_LINE_LOOP:
+    case GL_LINE_STRIP:
+    case GL_LINES_ADJACENCY:
+    case GL_LINE_STRIP_ADJACENCY:
+        return false;
+    default:
+        return true;
+    }
+}
+
+long primitive_count(GLenum mode, long vertices) {
+    switch (mode) {
+    case GL_POINTS:
+        return vertices;
+    case GL_LINES:
+        return vertices / 2;
+    case GL_LINE_LOOP:
+        return vertices > 1 ? vertices : 0;
+    case GL_LINE_STRIP:
+        return std::max(0L, vertices - 1);
+    case GL_LINES_ADJACENCY:
+        return vertices / 4;
+    case GL_LINE_STRIP_ADJACENCY:
+        return std::max(0L, vertices - 3);
     case GL_TRIANGLES:
+    case GL_PATCHES:
         return vertices / 3;
     case GL_QUADS:
         return vertices / 4 * 2;
@@ -256,8 +328,6 @@ long triangle_count(GLenum mode, long vertices) {
         return vertices / 6;
     case GL_TRIANGLE_STRIP_ADJACENCY:
         return std::max(0L, vertices / 2 - 2);
-    case GL_PATCHES:
-        return vertices / 3;
     default:
         return 0;
     }

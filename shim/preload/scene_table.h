@@ -1,5 +1,7 @@
 // A table that numbers the draws which pass through it, and lets through those that its owner keeps.
 #pragma once
+#include <vector>
+
 #include "capture/gl/gl_table.h"
 
 namespace glcast::preload {
@@ -12,16 +14,24 @@ class DrawGate {
     DrawGate(const DrawGate&) = delete;
     DrawGate& operator=(const DrawGate&) = delete;
 
-    /// `polygons`: the primitive has faces; `triangles` of it, unknown yet for glBegin. False: the draw is
-    /// swallowed.
-    virtual bool keep(bool polygons, long triangles) = 0;
+    /// `primitives`: triangles, lines or points, as the mode says; 0 for glBegin, which cannot know yet. False:
+    /// the draw is swallowed.
+    virtual bool keep(GLenum mode, long primitives) = 0;
     /// What glBegin could not know, at its glEnd.
-    virtual void add_triangles(long) {}
+    virtual void add_primitives(long) {}
     /// glPushMatrix is about to be called.
     virtual void before_push() {}
     /// True: clears, pixel rectangles and framebuffer bindings are swallowed too, so nothing at all is drawn.
     virtual bool draws_nothing() const { return false; }
     virtual void framebuffer_bound(GLuint) {}
+    /// glClear is about to be called, or would be.
+    virtual void cleared(GLbitfield) {}
+    /// glDrawPixels, glBitmap or glCopyPixels was called; never solid, and swallowed.
+    virtual void pixels_drawn() {}
+    /// GL_BLEND is switched. False: the switch is swallowed.
+    virtual bool blends(bool) { return true; }
+    /// True: glPushAttrib and glPopAttrib bring `blends` back too.
+    virtual bool blending_restored() { return false; }
 
     const GlTable& inner;
 
@@ -29,10 +39,16 @@ class DrawGate {
     bool swallowing = false;
     GLenum mode = 0;
     long vertices = 0;
+    bool blend = false;
+    struct SavedBlend {
+        bool is_saved, blend;
+    };
+    std::vector<SavedBlend> saved_blends;
 };
 
-/// Triangles that a primitive is cut into; 0 for points and lines.
-long triangle_count(GLenum mode, long vertices);
+bool has_faces(GLenum mode);
+/// Triangles, lines or points that the vertices make.
+long primitive_count(GLenum mode, long vertices);
 
 /// The table through which `gate` sees all. One gate a thread at a time; it must outlive the use of the
 /// table.

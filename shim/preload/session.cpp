@@ -4,44 +4,60 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <climits>
 #include <cstdlib>
+#include <map>
 #include <mutex>
+#include <set>
 #include <unordered_map>
 
 #include "shim/preload/cast.h"
+#include "shim/preload/census.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
+#include "shim/preload/triggers.h"
+#include "shim/preload/watcher.h"
 
 namespace glcast::preload {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Parts kept for a swap to come; more are only seen where a program draws and never shows it.
+constexpr std::size_t most_parts = 32;
+
+struct Ended {
+    long frames = 0;
+    long next_wish = 1; ///< the first that may be cast
+};
+/// Frames are counted for each window of each context.
+using FrameKey = std::pair<const void*, std::uintptr_t>;
+
 /// All that changes in the life of a process, but for what belongs to a thread.
 struct Session {
     const Options options = read_options();
     const pid_t pid = getpid(); ///< a forked child has the parent's session and must leave it alone
-    std::mutex mutex;           ///< guards `contexts` and the counts in them; never held over a GL or X call
-    std::unordered_map<void*, std::unique_ptr<NativeContext>> contexts;
-    std::atomic<bool> waiting{
-        options.armed}; ///< for a frame to cast; false when all were cast, or none can be
-    std::atomic<long> captures_left{options.captures > 0 ? options.captures : LONG_MAX};
-    std::atomic<bool> casting{false};
-    std::atomic<bool> hooked{false};
+    Triggers triggers{options};
+    std::mutex mutex; ///< guards what follows; never held over a GL or X call
+    std::unordered_map<void*, std::shared_ptr<NativeContext>> contexts;
+    std::map<FrameKey, Ended> ended;
+    std::set<std::uintptr_t> swapped; ///< drawables
+    std::vector<FramePart> parts;     ///< of the frame that has not ended yet
+    Census seen;
+    unsigned told_kinds = 0;
+
+    std::atomic<bool> casting{false}, hooked{false};
     std::atomic<bool> settled{false}; ///< captured, listed or failed: nothing more to say at exit
-    std::atomic<long> frames{0}, empty_frames{0};
+    std::atomic<long> frames{0};
     Clock::time_point start{}; ///< of GL: when the first context was made current
 
     bool is_ours() const { return getpid() == pid; }
 };
 
 std::atomic<Session*> existing{nullptr};
-/// Set when `waiting` ends, and read by every recorded call: threads then drop what they record.
-constinit std::atomic<bool> stopped{false};
+/// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
+constinit std::atomic<bool> unwanted{false};
 
 /// Never destroyed: other threads may draw while the process ends.
 Session& session() {
@@ -66,9 +82,11 @@ struct ThreadState {
 };
 constinit thread_local ThreadState thread_state{nullptr, 0, false};
 
-void stop_waiting(Session& s) {
-    s.waiting = false;
-    stopped = true;
+void update_unwanted(Session& s) { unwanted = !s.triggers.waiting(); }
+
+void give_up(Session& s) {
+    s.triggers.give_up();
+    update_unwanted(s);
 }
 
 /// The one place where exceptions end: the shim gives up, the program goes on.
@@ -78,19 +96,29 @@ template <class Work> void guarded(Work&& work) noexcept {
     } catch (const std::exception& error) {
         say_once("gave up: %s", error.what());
         if (Session* s = existing) {
-            stop_waiting(*s);
+            give_up(*s);
             if (!s->settled.exchange(true)) tell("failed", error.what());
         }
     } catch (...) {
-        if (Session* s = existing) stop_waiting(*s);
+        if (Session* s = existing) give_up(*s);
     }
 }
 
-void announce(Session& s, const WindowSystem& system) {
+void announce(Session& s, const NativeContext& context) {
     if (s.hooked.exchange(true)) return;
     s.start = Clock::now();
-    say("hooked %s in %s", system.name(), program_name().c_str());
-    tell("hooked", system.name());
+    say("hooked %s in %s", context.system->name(), program_name().c_str());
+    tell("hooked", context.system->name());
+    s.triggers.look_for_signals();
+    if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");
+    if (s.options.signal) tell("waits", "the signal did not come");
+    if (s.options.key.empty() && !s.options.nudge) return;
+    start_watcher(s.options, context.system->server(context.display),
+                  {.over = [&s] { return s.triggers.over(); },
+                   .waiting = [&s] { return s.triggers.waiting(); },
+                   .frames = [&s] { return s.frames.load(); },
+                   .fire = [&s] { s.triggers.fire(), update_unwanted(s); },
+                   .look_for_signals = [&s] { s.triggers.look_for_signals(), update_unwanted(s); }});
 }
 
 NativeContext* find_context(Session& s, void* handle) {
@@ -99,44 +127,88 @@ NativeContext* find_context(Session& s, void* handle) {
 }
 
 void forget_if_unused(Session& s, NativeContext* context) {
-    if (context->destroyed && context->threads == 0) s.contexts.erase(context->handle);
+    if (!context->destroyed || context->threads > 0) return;
+    std::erase_if(s.ended, [&](const auto& entry) { return entry.first.first == context; });
+    s.contexts.erase(context->handle);
 }
 
-void stop_recording(NativeContext& context) {
+void refuse(Session& s, const std::string& why) {
+    s.seen.refused = why;
+    say_once("a frame cannot be recorded: %s (the next one is tried)", why.c_str());
+    tell("refused", why);
+}
+
+/// Ends a context's recording; what it holds becomes a part of the frame that has not ended. The mutex is held, and
+/// the context is current on this thread or on none.
+void close_recording(Session& s, NativeContext& context) {
     if (!context.recording) return;
     context.recording = false;
-    record::end_frame(*context.shadow);
+    std::string why;
+    auto frame = record::end_frame(*context.shadow, &why);
+    if (!s.triggers.waiting() || context.destroyed) return;
+    if (!frame) return refuse(s, why);
+    const auto owner = s.contexts.find(context.handle);
+    if (owner == s.contexts.end()) return;
+    if (s.parts.size() == most_parts) s.parts.erase(s.parts.begin());
+    s.parts.push_back({owner->second, context.recorded_drawable, std::move(frame)});
+}
+
+/// A drawable that is never swapped (a pbuffer, or a window under a context that draws to framebuffer objects)
+/// takes part in the frames of those that are.
+Ended frames_of(const Session& s, const NativeContext& context, std::uintptr_t drawable) {
+    if (const auto at = s.ended.find({&context, drawable}); at != s.ended.end()) return at->second;
+    const bool swapped = s.swapped.contains(drawable);
+    Ended most;
+    for (const auto& [key, ended] : s.ended)
+        if (ended.frames > most.frames && (!swapped || key.second == drawable)) most = ended;
+    return most;
+}
+
+bool is_late_enough(const Session& s) {
+    return std::chrono::duration<double>(Clock::now() - s.start).count() >= s.options.after_seconds;
 }
 
 bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
-    if (!s.waiting || !context.shadow || drawable == 0) return false;
-    const auto seconds = std::chrono::duration<double>(Clock::now() - s.start).count();
-    if (seconds < s.options.after_seconds) return false;
+    if (!s.triggers.waiting() || !context.shadow) return false;
+    if (!is_late_enough(s)) return false;
     const std::lock_guard lock(s.mutex);
     if (context.destroyed) return false;
-    const auto at = context.frames.find(drawable);
-    const auto frames = at == context.frames.end() ? NativeContext::Frames() : at->second;
-    return frames.ended + 1 >= std::max(frames.next_wish, s.options.frame);
+    const Ended ended = frames_of(s, context, drawable);
+    return ended.frames + 1 >= std::max(ended.next_wish, s.options.frame);
 }
 
 /// Record what follows, if it may be the frame that is waited for.
 void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable) {
-    if (context.recording && context.recorded_drawable == drawable && s.waiting) return;
-    stop_recording(context);
+    if (context.recording && context.recorded_drawable == drawable && s.triggers.waiting()) return;
+    {
+        const std::lock_guard lock(s.mutex);
+        close_recording(s, context);
+    }
     if (!is_due(s, context, drawable)) return;
     if (const char* why = record::busy(*context.shadow)) {
-        say_once("a frame cannot be recorded: %s (the next one is tried)", why);
-        tell("refused", why);
-        return;
+        const std::lock_guard lock(s.mutex);
+        return refuse(s, why);
     }
     record::begin_frame(*context.shadow);
     context.recording = true;
     context.recorded_drawable = drawable;
 }
 
-void frame_without_cast(Session& s) {
-    const long frames = ++s.empty_frames;
-    if ((frames & (frames - 1)) == 0) tell("frames", std::to_string(frames));
+/// Say now and then what is seen instead of a solid: a program may be killed at any time.
+void frame_without_cast(Session& s, const Census& held) {
+    long frames = 0;
+    std::string text;
+    {
+        const std::lock_guard lock(s.mutex);
+        s.seen += held;
+        frames = ++s.seen.frames;
+        const unsigned kinds = s.seen.kinds();
+        if ((frames & (frames - 1)) != 0 && kinds == s.told_kinds) return;
+        s.told_kinds = kinds;
+        text = explain(s.seen);
+    }
+    tell("frames", std::to_string(frames));
+    tell("seen", text);
 }
 
 void end_program() {
@@ -145,16 +217,15 @@ void end_program() {
 }
 
 /// A frame that was asked for is captured, listed, or lost for good.
-void finish(Session& s, NativeContext& context, long number, const CastResult& result) {
+void finish(Session& s, FrameKey window, long number, const CastResult& result) {
     s.settled = true;
-    const bool last = --s.captures_left <= 0 || result.outcome == CastOutcome::listed;
-    if (last) stop_waiting(s);
+    const bool last = s.triggers.taken() || result.outcome == CastOutcome::listed;
+    if (result.outcome == CastOutcome::listed) s.triggers.give_up();
+    update_unwanted(s);
     {
         const std::lock_guard lock(s.mutex);
-        context.frames[context.recorded_drawable].next_wish = number + s.options.every;
+        s.ended[window].next_wish = number + s.options.every;
     }
-    if (context.sibling) context.system->destroy(context.display, context.sibling);
-    context.sibling = nullptr;
     if (result.outcome == CastOutcome::failed) {
         say_once("%s", result.message.c_str());
         tell("failed", result.message);
@@ -164,20 +235,44 @@ void finish(Session& s, NativeContext& context, long number, const CastResult& r
     if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
 }
 
-void cast_recorded_frame(Session& s, NativeContext& context, long number) {
-    context.recording = false;
-    std::string why;
-    const auto frame = record::end_frame(*context.shadow, &why);
-    if (!frame) {
-        say_once("a frame cannot be recorded: %s (the next one is tried)", why.c_str());
-        tell("refused", why);
-        return frame_without_cast(s);
+void destroy_siblings(const std::vector<FramePart>& parts) {
+    for (const FramePart& part : parts) {
+        if (part.context->sibling) part.context->system->destroy(part.context->display, part.context->sibling);
+        part.context->sibling = nullptr;
     }
-    if (!s.waiting || s.casting.exchange(true)) return; // another thread casts
-    const CastResult result = cast_frame(context, *frame, number, s.options);
+}
+
+void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number) {
+    if (parts.empty()) return frame_without_cast(s, {});
+    if (s.casting.exchange(true)) return; // another thread casts
+    const CastResult result = cast_frame(parts, number, s.options);
     s.casting = false;
-    if (result.outcome == CastOutcome::nothing_solid) return frame_without_cast(s);
-    finish(s, context, number, result);
+    if (result.outcome == CastOutcome::nothing_solid) return frame_without_cast(s, result.held);
+    destroy_siblings(parts);
+    finish(s, window, number, result);
+}
+
+/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
+/// that are never swapped. `context`, where not null, is current on this thread.
+std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintptr_t drawable) {
+    const std::lock_guard lock(s.mutex);
+    const auto shows = [&](std::uintptr_t other) { return other == drawable || !s.swapped.contains(other); };
+    if (context && context->recorded_drawable == drawable) close_recording(s, *context);
+    if (context) context->end_is_due = false;
+    for (const auto& [handle, other] : s.contexts) {
+        if (other.get() == context || !other->recording || !shows(other->recorded_drawable)) continue;
+        if (other->threads == 0)
+            close_recording(s, *other);
+        else if (other->recorded_drawable != drawable)
+            other->end_is_due = true;
+    }
+    std::vector<FramePart> taken;
+    std::erase_if(s.parts, [&](FramePart& part) {
+        if (!shows(part.drawable)) return false;
+        if (!part.context->destroyed) taken.push_back(std::move(part));
+        return true;
+    });
+    return taken;
 }
 
 bool is_destroyed(Session& s, const NativeContext& context) {
@@ -185,18 +280,46 @@ bool is_destroyed(Session& s, const NativeContext& context) {
     return context.destroyed;
 }
 
-/// Count the frame that ends here, and cast it if it was recorded.
-void end_frame(Session& s, NativeContext& context, std::uintptr_t drawable) {
+/// Count the frame that ends here, and cast it if it was recorded. `context` is null where none of desktop GL
+/// is current with the drawable.
+void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
+    s.triggers.look_for_signals();
+    update_unwanted(s);
+    const FrameKey window(context, drawable);
     long number = 0;
     {
         const std::lock_guard lock(s.mutex);
-        number = ++context.frames[drawable].ended;
+        s.swapped.insert(drawable);
+        number = ++s.ended[window].frames;
     }
-    if (!context.recording) return;
+    if (!s.triggers.waiting()) return;
+    const auto parts = take_parts(s, context, drawable);
     // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
-    if (is_destroyed(s, context)) return stop_recording(context);
-    cast_recorded_frame(s, context, number);
+    if (thread_state.context && is_destroyed(s, *thread_state.context)) return;
+    const bool expected = context && number >= s.options.frame && is_late_enough(s);
+    if (!parts.empty() || expected) cast_parts(s, parts, window, number);
+}
+
+/// A context that draws on a thread of its own to framebuffer objects: its part of a frame that has ended
+/// elsewhere.
+void end_late_part(Session& s, NativeContext& context) {
+    std::vector<FramePart> parts;
+    FrameKey window;
+    long number = 0;
+    {
+        const std::lock_guard lock(s.mutex);
+        close_recording(s, context);
+        std::erase_if(s.parts, [&](FramePart& part) {
+            if (part.context.get() != &context) return false;
+            parts.push_back(std::move(part));
+            return true;
+        });
+        for (const auto& [key, ended] : s.ended)
+            if (ended.frames > number) window = key, number = ended.frames;
+    }
+    if (!parts.empty()) cast_parts(s, parts, window, number);
+    start_recording(s, context, thread_state.drawable);
 }
 
 bool draws_to_front() {
@@ -206,22 +329,48 @@ bool draws_to_front() {
            buffer == GL_FRONT_AND_BACK;
 }
 
+bool always() { return true; }
+
+/// A frame's end that is no swap; the next one begins right behind it.
+void frame_ends_here(Session& s, bool (*really)()) {
+    NativeContext* const context = thread_state.context;
+    if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
+    if (!s.triggers.waiting() || !context || !context->shadow) return;
+    if (record::busy(*context->shadow)) return;
+    if (thread_state.drawable != 0 && really()) {
+        end_frame(s, context, thread_state.drawable);
+        start_recording(s, *context, thread_state.drawable);
+    } else if (context->end_is_due.exchange(false)) {
+        end_late_part(s, *context);
+    }
+}
+
 const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
 [[gnu::destructor]] void report_at_exit() noexcept {
     const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
-    if (has_status_file() || !(is_set("GLCAST_OUT") || is_set("GLCAST_LIST"))) return;
-    const Session* s = existing;
+    if (!(is_set("GLCAST_OUT") || is_set("GLCAST_LIST"))) return;
+    Session* s = existing;
     const std::string program = program_name();
-    if (!s || (!s->hooked && !s->settled)) return say("no GL seen in %s: nothing captured", program.c_str());
+    if (!s || (!s->hooked && !s->settled)) {
+        if (!has_status_file()) say("no GL seen in %s: nothing captured", program.c_str());
+        return;
+    }
     if (!s->is_ours() || s->settled) return;
-    const long frames = s->frames, empty = s->empty_frames;
+    const std::lock_guard lock(s->mutex);
+    const long frames = s->frames, empty = s->seen.frames;
+    const std::string why = explain(s->seen);
+    if (has_status_file()) {
+        tell("frames", std::to_string(empty));
+        if (empty > 0) tell("seen", why);
+        return;
+    }
     if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
     if (empty == 0)
         return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
                    frames, plural(frames));
-    say("%ld frame%s, none with solid geometry: nothing captured", frames, plural(frames));
+    say("%ld frame%s, none with solid geometry: nothing captured (%s)", empty, plural(empty), why.c_str());
 }
 
 } // namespace
@@ -233,8 +382,12 @@ const GlTable& recording_table() {
         record::set_current(nullptr, real_table());
         thread_state.known = true;
     }
-    if (stopped.load(std::memory_order_relaxed) && thread_state.context) [[unlikely]]
-        stop_recording(*thread_state.context);
+    if (unwanted.load(std::memory_order_relaxed) && thread_state.context && thread_state.context->recording)
+        [[unlikely]] {
+        Session& s = session();
+        const std::lock_guard lock(s.mutex);
+        close_recording(s, *thread_state.context);
+    }
     return record::table();
 }
 
@@ -251,7 +404,7 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
                   std::function<void*()> make_sibling) noexcept {
     if (!handle) return;
     guarded([&](Session& s) {
-        auto context = std::make_unique<NativeContext>();
+        auto context = std::make_shared<NativeContext>();
         context->system = &system;
         context->display = display;
         context->handle = handle;
@@ -278,6 +431,8 @@ void context_destroyed(void* handle) noexcept {
             system = context->system, display = context->display;
             std::swap(sibling, context->sibling);
             context->destroyed = true;
+            if (context->threads == 0) close_recording(s, *context);
+            std::erase_if(s.parts, [&](const FramePart& part) { return part.context.get() == context; });
             forget_if_unused(s, context);
         }
         if (sibling) system->destroy(display, sibling);
@@ -299,17 +454,21 @@ void made_current(const Binding& binding) noexcept {
         }
         thread_state = {now, binding.draw, true};
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
-        if (!now || !now->shadow) return;
-        announce(s, *now->system);
-        start_recording(s, *now, binding.draw);
+        if (!now) return;
+        announce(s, *now);
+        now->end_is_due = false;
+        if (now->shadow) start_recording(s, *now, binding.draw);
     });
 }
 
 void before_swap(std::uintptr_t drawable) noexcept {
     guarded([&](Session& s) {
-        NativeContext* const context = thread_state.context;
-        if (!context || !context->shadow || thread_state.drawable != drawable) return;
-        end_frame(s, *context, drawable);
+        NativeContext* const current = thread_state.drawable == drawable ? thread_state.context : nullptr;
+        if (current && !current->shadow) {
+            const std::lock_guard lock(s.mutex);
+            ++s.seen.foreign_frames;
+        }
+        end_frame(s, current, drawable);
     });
 }
 
@@ -319,17 +478,6 @@ void after_swap(std::uintptr_t drawable) noexcept {
         if (context && context->shadow && thread_state.drawable == drawable)
             start_recording(s, *context, drawable);
     });
-}
-
-bool always() { return true; }
-
-/// A frame's end that is no swap; the next one begins right behind it.
-void frame_ends_here(Session& s, bool (*really)()) {
-    NativeContext* const context = thread_state.context;
-    if (!s.waiting || !context || !context->shadow || thread_state.drawable == 0) return;
-    if (record::busy(*context->shadow) || !really()) return;
-    end_frame(s, *context, thread_state.drawable);
-    start_recording(s, *context, thread_state.drawable);
 }
 
 void flushed() noexcept {

@@ -1,10 +1,11 @@
 // The life of a preloaded process: its contexts, its frames, and when one of them is cast.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <map>
 #include <memory>
+#include <vector>
 
 #include "shim/preload/options.h"
 #include "shim/preload/window_system.h"
@@ -21,15 +22,21 @@ struct NativeContext {
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
     std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
     void* sibling = nullptr;                 ///< made when first needed, ours to destroy
-    struct Frames {
-        long ended = 0;     ///< swaps
-        long next_wish = 1; ///< the first that may be cast
-    };
-    std::map<std::uintptr_t, Frames> frames; ///< by drawable
     bool recording = false;
     std::uintptr_t recorded_drawable = 0;
     int threads = 0; ///< on which it is current
     bool destroyed = false;
+    /// A frame has ended elsewhere while this context was current on a thread of its own: what it has drawn by its
+    /// next flush belongs to that frame.
+    std::atomic<bool> end_is_due{false};
+};
+
+/// What one context has drawn to one drawable since the last frame ended. A frame may have several parts: Qt
+/// draws the scene in one context, to a framebuffer object, and puts it on the window in another.
+struct FramePart {
+    std::shared_ptr<NativeContext> context;
+    std::uintptr_t drawable = 0;
+    std::shared_ptr<const record::Frame> frame;
 };
 
 /// Must GL be shadowed at all? False for good when nothing can be asked of this process.
@@ -44,7 +51,7 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
 void context_destroyed(void* handle) noexcept;
 /// After a make-current that succeeded; null context: none is current on this thread.
 void made_current(const Binding& binding) noexcept;
-/// Around the real swap of a drawable.
+/// Around the real swap of a drawable, whichever is current.
 void before_swap(std::uintptr_t drawable) noexcept;
 void after_swap(std::uintptr_t drawable) noexcept;
 /// Display lists of this thread's context that were filled by other means than GL calls.

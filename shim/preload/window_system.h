@@ -1,6 +1,7 @@
 // What a capture needs of GLX or EGL.
 #pragma once
 #include <cstdint>
+#include <string>
 
 namespace glcast::preload {
 
@@ -22,6 +23,8 @@ class WindowSystem {
     /// Whether its drawables still exist: to leave a context whose window has been destroyed is to lose it.
     virtual bool can_return_to(const Binding& binding) const = 0;
     virtual void destroy(void* display, void* context) const = 0;
+    /// Of the X server, as in $DISPLAY; empty: not known.
+    virtual std::string server(void* display) const = 0;
 };
 
 } // namespace glcast::preload

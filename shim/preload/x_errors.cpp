@@ -15,8 +15,9 @@ struct XCalls {
     decltype(&::XSync) sync = nullptr;
     decltype(&::XNextRequest) next_request = nullptr;
     decltype(&::XGetGeometry) get_geometry = nullptr;
+    decltype(&::XDisplayString) display_string = nullptr;
 
-    bool complete() const { return set_handler && sync && next_request && get_geometry; }
+    bool complete() const { return set_handler && sync && next_request && get_geometry && display_string; }
 };
 
 template <class Function> void find(void* library, const char* name, Function*& function) {
@@ -32,6 +33,7 @@ const XCalls& x_calls() {
         find(library, "XSync", found.sync);
         find(library, "XNextRequest", found.next_request);
         find(library, "XGetGeometry", found.get_geometry);
+        find(library, "XDisplayString", found.display_string);
         return found;
     }();
     return calls;
@@ -79,6 +81,11 @@ bool x_drawable_exists(void* display, unsigned long drawable) {
     unsigned width = 0, height = 0, border = 0, depth = 0;
     return x_calls().get_geometry(static_cast<Display*>(display), drawable, &root, &x, &y, &width, &height,
                                   &border, &depth) != 0;
+}
+
+std::string x_display_name(void* display) {
+    const char* name = x_calls().complete() && display ? x_calls().display_string(static_cast<Display*>(display)) : "";
+    return name ? name : "";
 }
 
 bool XErrorTrap::failed() {

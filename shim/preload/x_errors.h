@@ -1,5 +1,6 @@
 // X errors of requests of our own.
 #pragma once
+#include <string>
 
 namespace glcast::preload {
 
@@ -19,5 +20,8 @@ class XErrorTrap {
 
 /// Whether a window or pixmap exists. True where it cannot be asked.
 bool x_drawable_exists(void* display, unsigned long drawable);
+
+/// As in $DISPLAY; empty where it cannot be asked.
+std::string x_display_name(void* display);
 
 } // namespace glcast::preload

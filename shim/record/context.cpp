@@ -117,6 +117,8 @@ std::shared_ptr<Context> make_context(const GlTable& real, const std::shared_ptr
     return std::make_shared<Context>(real, shared_with ? shared_with->group : std::make_shared<ShareGroup>());
 }
 
+bool share_objects(const Context& a, const Context& b) { return a.group == b.group; }
+
 void set_current(Context* context, const GlTable& fallback) {
     this_thread.context = context;
     this_thread.real = context ? &context->real : &fallback;

@@ -21,6 +21,9 @@ struct Context;
 /// A new context's shadow. `real` must outlive it. `shared_with` may be null.
 std::shared_ptr<Context> make_context(const GlTable& real, const std::shared_ptr<Context>& shared_with);
 
+/// Are their lists, textures and buffers the same?
+bool share_objects(const Context& a, const Context& b);
+
 /// Make it this thread's; null for none. While none is set, table() passes straight through to `fallback`.
 void set_current(Context* context, const GlTable& fallback);
 

@@ -39,7 +39,10 @@ const Refusal refusals[] = {
     {"matrix_of_three", cube, {{"GLCAST_FRAME_MATRIX", "1 2 3"}}, "GLCAST_FRAME_MATRIX"},
     {"no_such_folder", cube, {{"GLCAST_OUT", "/no/such/folder/cast.exr"}}, "no folder /no/such/folder"},
     {"folder_for_a_file", cube, {{"GLCAST_OUT", "/"}}, "it is a folder"},
-    {"no_such_group", cube, {{"GLCAST_GROUP", "9"}}, "none with solid geometry"},
+    {"no_such_group", cube, {{"GLCAST_GROUP", "9"}}, "there is no group 9, the frame has 1 group"},
+    {"no_such_key", cube, {{"GLCAST_KEY", "F99"}}, "GLCAST_KEY=F99: expected a key"},
+    {"no_such_signal", cube, {{"GLCAST_SIGNAL", "KILL"}}, "GLCAST_SIGNAL=KILL: expected a signal"},
+    {"include_unknown", cube, {{"GLCAST_INCLUDE", "text"}}, "expected lines, points or lines,points"},
 };
 
 class Refused : public testing::TestWithParam<Refusal> {};

@@ -49,9 +49,10 @@ TEST(Scene, BaseModelviewIsTheFramesOwnWhateverLiesOnTheStack) {
     const Scene scene = analyse(*frame, sibling.gl());
     ASSERT_EQ(scene.groups.size(), 1u);
     EXPECT_EQ(scene.groups[0].triangles, 1);
-    ASSERT_TRUE(scene.base_modelview);
-    EXPECT_EQ((*scene.base_modelview)[3], glm::dvec4(0, 0, -5, 1));
-    EXPECT_EQ((*scene.base_modelview)[0], glm::dvec4(1, 0, 0, 0));
+    const auto& base = scene.groups[0].base_modelview;
+    ASSERT_TRUE(base);
+    EXPECT_EQ((*base)[3], glm::dvec4(0, 0, -5, 1));
+    EXPECT_EQ((*base)[0], glm::dvec4(1, 0, 0, 0));
 }
 
 } // namespace

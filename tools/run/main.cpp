@@ -41,6 +41,9 @@ std::string check_all(const Options& options, const fs::path& program, const fs:
     if (const std::string trouble = check_program(program); !trouble.empty()) {
         return trouble;
     }
+    if (!options.list_picture.empty()) {
+        return check_output(options.list_picture);
+    }
     return options.output.empty() ? "" : check_output(options.output);
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -83,6 +85,25 @@ std::string check_layers(const std::string& text) {
     return good ? "" : "needs auto, slab or a whole number from 1 to 256, not " + text;
 }
 
+std::string check_name(const std::string& text) {
+    const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '+'; };
+    return !text.empty() && std::all_of(text.begin(), text.end(), fits) ? "" : "is not a name";
+}
+
+constexpr const char* list_picture_option = "--list-picture";
+
+/// `--list` takes the next word when it is the name of a picture.
+std::vector<std::string> split_list_option(const char* const* first, const char* const* last) {
+    std::vector<std::string> words;
+    for (; first != last; ++first) {
+        if (!words.empty() && words.back() == "--list" && std::string_view(*first).ends_with(".png")) {
+            words.emplace_back(list_picture_option);
+        }
+        words.emplace_back(*first);
+    }
+    return words;
+}
+
 class HelpFormat : public CLI::Formatter {
     std::string make_usage(const CLI::App*, std::string) const override {
         return "Usage: glcast-run [OPTIONS] -- PROGRAM [ARGS...]\n";
@@ -104,11 +125,19 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_AFTER")
         ->check(CLI::Range(0.0, 1e6))
         ->excludes(frame);
+    app.add_option("--key", o.key, "Cast a frame each time this key (F12, Print, x, ...) is pressed")
+        ->envname("GLCAST_KEY")
+        ->check(check_name);
+    app.add_option("--signal", o.signal, "Cast a frame each time this signal (USR1, ...) comes to PROGRAM")
+        ->envname("GLCAST_SIGNAL")
+        ->check(check_name);
+    app.add_flag("--nudge", o.nudge, "Expose and resize the window by a pixel while no frame comes")
+        ->envname("GLCAST_NUDGE");
     app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
         ->envname("GLCAST_EVERY")
         ->check(CLI::Range(1L, 1'000'000'000L));
     app.add_option("--captures", o.captures,
-                   "Cast so many frames (default: 1; with --every no limit, but 1 with --quit)")
+                   "Cast so many frames (default: 1; with --every, --key and --signal no limit, but 1 with --quit)")
         ->envname("GLCAST_CAPTURES")
         ->check(CLI::Range(1L, 1'000'000'000L));
     app.add_option("--normals", o.normals, "signed: one render; six: the paper's six renders")
@@ -132,8 +161,16 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_GROUP")
         ->check(CLI::Range(1, 1'000'000));
     app.add_flag("--list", o.list,
-                 "Print the groups of the frame instead of casting it, then end the program")
-        ->envname("GLCAST_LIST");
+                 "Print the groups of the frame instead of casting it, then end the program; "
+                 "--list FILE.png also shows them");
+    app.add_option(list_picture_option, o.list_picture)->group("");
+    app.add_option("--include", o.include, "Also cast lines, points or lines,points, a sample thick")
+        ->envname("GLCAST_INCLUDE")
+        ->check(CLI::IsMember({"lines", "points", "lines,points"}));
+    app.add_option("--transparent", o.transparent,
+                   "What is blended: keep or skip all of it (default: keep what is at least half opaque)")
+        ->envname("GLCAST_TRANSPARENT")
+        ->check(CLI::IsMember({"keep", "skip"}));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,
@@ -161,7 +198,9 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         "glcast-run");
     declare(app, options);
     try {
-        app.parse(static_cast<int>(dashes - argv), argv);
+        auto words = split_list_option(argv + std::min(argc, 1), dashes);
+        std::reverse(words.begin(), words.end()); // CLI11 takes them from the back
+        app.parse(std::move(words));
     } catch (const CLI::Success& help) {
         app.exit(help);
         return Parsed::done;
@@ -180,9 +219,21 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
     if (options.program.empty()) {
         return usage("no PROGRAM given");
     }
+    if (const char* list = std::getenv("GLCAST_LIST"); list != nullptr && !options.list) {
+        const std::string_view text(list);
+        options.list = text == "1" || text == "yes" || text == "true";
+        if (text.ends_with(".png")) {
+            options.list_picture = text;
+        }
+    }
+    if (!options.list_picture.empty()) {
+        options.list = true;
+        options.list_picture = std::filesystem::absolute(options.list_picture).lexically_normal();
+    }
     options.quit |= options.list;
     if (options.captures < 0) {
-        options.captures = options.every > 0 && !options.quit ? 0 : 1;
+        const bool repeats = options.every > 0 || !options.key.empty() || !options.signal.empty();
+        options.captures = repeats && !options.quit ? 0 : 1;
     }
     if (options.timeout_seconds == 0 && (options.quit || options.headless)) {
         options.timeout_seconds = default_quit_timeout_seconds;
@@ -210,6 +261,9 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_OUT", o.output},
         {"GLCAST_N", std::to_string(o.n)},
         {"GLCAST_FRAME", o.frame > 0 ? std::to_string(o.frame) : ""},
+        {"GLCAST_KEY", o.key},
+        {"GLCAST_SIGNAL", o.signal},
+        {"GLCAST_NUDGE", o.nudge ? "1" : ""},
         {"GLCAST_EVERY", o.every > 0 ? std::to_string(o.every) : ""},
         {"GLCAST_CAPTURES", std::to_string(o.captures)},
         {"GLCAST_AFTER", o.after_seconds > 0 ? number(o.after_seconds) : ""},
@@ -218,7 +272,9 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_BOX", o.box},
         {"GLCAST_FRAME_MATRIX", o.frame_matrix},
         {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},
-        {"GLCAST_LIST", o.list ? "1" : ""},
+        {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
+        {"GLCAST_INCLUDE", o.include},
+        {"GLCAST_TRANSPARENT", o.transparent},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},
     };

@@ -13,6 +13,8 @@ struct Options {
     int n = 512;
     long frame = 0;           ///< 0: the first with solid geometry
     double after_seconds = 0; ///< 0: at once
+    std::string key, signal;  ///< what asks for a cast; empty: nothing has to
+    bool nudge = false;
     long every = 0;           ///< cast every so many-th frame; 0: not asked for
     long captures = -1;       ///< so many, 0: no limit; never negative after parse_options
     std::string normals = "signed";
@@ -23,6 +25,8 @@ struct Options {
     bool headless = false;
     bool quit = false; ///< end the program after the capture; `list` implies it
     bool list = false;
+    std::string list_picture; ///< absolute; implies `list`
+    std::string include, transparent;
     double timeout_seconds = 0;       ///< 0: no limit
     std::vector<std::string> program; ///< name and arguments
 };

@@ -17,6 +17,8 @@ void take_line(const std::string& line, Seen& seen) {
     static const std::map<std::string, Take> kinds = {
         {"hooked", [](const std::string& rest, Seen& s) { s.api = rest; }},
         {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
+        {"waits", [](const std::string& rest, Seen& s) { s.waits = rest; }},
+        {"seen", [](const std::string& rest, Seen& s) { s.seen = rest; }},
         {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
         {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
         {"captured",
@@ -47,13 +49,18 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
         return "the capture of frame " + std::to_string(seen.casting) + " was not complete: " + ending +
                " (a longer --timeout or a smaller -n helps)";
     }
+    if (!seen.waits.empty() && seen.frames == 0) {
+        return seen.api + " seen, but " + seen.waits + ", or no frame came after: " + ending;
+    }
     const std::string refused =
         seen.refused.empty() ? "" : " (a frame could not be recorded: " + seen.refused + ")";
     if (seen.frames == 0) {
-        return seen.api + " seen, but no whole frame" + refused + ": " + ending;
+        return seen.api + " seen, but no whole frame" + refused + ": " + ending +
+               " (if it draws only when its window is touched, --nudge helps)";
     }
     return std::to_string(seen.frames) + (seen.frames == 1 ? " frame" : " frames or more") +
-           " seen through " + seen.api + ", none with solid geometry to cast" + refused + ": " + ending;
+           " seen through " + seen.api + ", none with solid geometry to cast: " +
+           (seen.seen.empty() ? "" : seen.seen + "; ") + ending;
 }
 
 StatusPipe::StatusPipe() {

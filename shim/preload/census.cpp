@@ -1,0 +1,76 @@
+#include "shim/preload/census.h"
+
+#include <initializer_list>
+
+namespace glcast::preload {
+
+Census& Census::operator+=(const Census& other) {
+    frames += other.frames;
+    foreign_frames += other.foreign_frames;
+    solid += other.solid;
+    flat += other.flat;
+    lines += other.lines;
+    points += other.points;
+    pixels += other.pixels;
+    shaders += other.shaders;
+    if (!other.refused.empty()) refused = other.refused;
+    return *this;
+}
+
+unsigned Census::kinds() const {
+    unsigned bits = 0, bit = 1;
+    for (const bool is : {foreign_frames > 0, solid > 0, flat > 0, lines > 0, points > 0, pixels > 0, shaders > 0,
+                          !refused.empty()}) {
+        bits |= is ? bit : 0;
+        bit <<= 1;
+    }
+    return bits;
+}
+
+namespace {
+
+std::string counted(long number, const char* what) { return std::to_string(number) + " " + what; }
+
+/// "12 lines, 3 points and 4 flat triangles"
+std::string enumerate(const Census& seen) {
+    struct Kind {
+        long number;
+        const char* what;
+    };
+    std::string text;
+    for (const auto& [number, what] :
+         {Kind{seen.shaders, "draws by shaders"}, Kind{seen.lines, "lines"}, Kind{seen.points, "points"},
+          Kind{seen.flat, "flat triangles (no depth test)"}, Kind{seen.pixels, "pixel rectangles"},
+          Kind{seen.solid, "triangles that leave no mark in a view from outside"}})
+        if (number > 0) text += (text.empty() ? "" : ", ") + counted(number, what);
+    return text;
+}
+
+/// The kind that explains most comes first.
+const char* advice(const Census& seen) {
+    if (seen.foreign_frames > 0 && seen.foreign_frames == seen.frames)
+        return "it draws with OpenGL ES, which has no fixed functions: only fixed-function drawing of desktop OpenGL can "
+               "be cast";
+    if (seen.shaders > 0)
+        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast";
+    if (!seen.refused.empty()) return nullptr;
+    if (seen.lines > 0 && seen.points > 0) return "--include lines,points casts these";
+    if (seen.lines > 0) return "--include lines casts these";
+    if (seen.points > 0) return "--include points casts these";
+    if (seen.solid > 0) return "--box can say where to look";
+    if (seen.flat > 0) return "--list shows the groups, and --group K casts one";
+    if (seen.pixels > 0) return "it paints pictures, no geometry";
+    return "nothing was drawn; if it draws only when its window is touched, --nudge helps";
+}
+
+} // namespace
+
+std::string explain(const Census& seen) {
+    std::string text = enumerate(seen);
+    if (!seen.refused.empty())
+        text += (text.empty() ? "" : "; ") + std::string("a frame could not be recorded: ") + seen.refused;
+    if (const char* what = advice(seen)) text += (text.empty() ? "" : "; ") + std::string(what);
+    return text;
+}
+
+} // namespace glcast::preload

@@ -1,0 +1,121 @@
+#include "shim/preload/choice.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace glcast::preload {
+namespace {
+
+constexpr double backdrop_coverage = 0.98;
+constexpr double inset_share = 1.0 / 50; ///< of the pixels that the largest covers
+constexpr long inset_richness = 10;      ///< so many times the triangles of the others: no inset
+constexpr long few_triangles = 64;       ///< a scene of so few may be a backdrop
+constexpr std::size_t most_pictures = 16;
+
+void add(Group& all, const Group& one) {
+    all.draws += one.draws;
+    all.triangles += one.triangles;
+    all.outlined += one.outlined;
+    all.lines += one.lines;
+    all.points += one.points;
+    all.writes_depth |= one.writes_depth;
+    if (!all.base_modelview) all.base_modelview = one.base_modelview;
+}
+
+/// What may become solid, in primitives.
+long substance(const Group& group, const Include& include) {
+    return group.triangles + group.outlined + (include.lines ? group.lines : 0) +
+           (include.points ? group.points : 0);
+}
+
+long area(const Group& group) { return long(group.viewport[2]) * group.viewport[3]; }
+
+double pixels(const Candidate& c) { return c.picture.coverage * double(area(c.group)); }
+
+void find_insets(std::vector<Candidate>& candidates, const Include& include) {
+    for (Candidate& c : candidates) {
+        if (!c.castable || c.backdrop || c.group.erased) continue;
+        for (const Candidate& other : candidates) {
+            if (&other == &c || !other.castable || other.backdrop || other.group.erased) continue;
+            const bool smaller = pixels(c) < inset_share * pixels(other);
+            const bool richer =
+                substance(c.group, include) > inset_richness * substance(other.group, include);
+            c.inset |= smaller && !richer;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Candidate> merge(const std::vector<Scene>& scenes, const std::function<bool(int, int)>& may_join) {
+    std::vector<Candidate> all;
+    const int parts = static_cast<int>(scenes.size());
+    const auto first_part = [](const Candidate& c) {
+        return static_cast<int>(std::find_if(c.in_part.begin(), c.in_part.end(), [](int i) { return i >= 0; }) -
+                                c.in_part.begin());
+    };
+    for (int part = 0; part < parts; ++part) {
+        for (std::size_t i = 0; i < scenes[part].groups.size(); ++i) {
+            const Group& group = scenes[part].groups[i];
+            const auto same = std::find_if(all.begin(), all.end(), [&](const Candidate& c) {
+                return c.in_part[part] < 0 && c.group.same_place(group) && c.group.erased == group.erased &&
+                       first_part(c) != part && may_join(first_part(c), part);
+            });
+            const bool is_new = same == all.end();
+            Candidate& into = is_new ? all.emplace_back() : *same;
+            if (is_new) {
+                into.group = group;
+                into.in_part.assign(parts, -1);
+            } else {
+                add(into.group, group);
+            }
+            into.in_part[part] = static_cast<int>(i);
+        }
+    }
+    return all;
+}
+
+bool is_scene(const Candidate& candidate) { return candidate.castable && !candidate.backdrop; }
+
+void rank(std::vector<Candidate>& candidates, const Include& include, bool pictures_of_all,
+          const std::function<Thumbnail(const Candidate&)>& draw_picture) {
+    long castable = 0, richest = 0;
+    for (Candidate& c : candidates) {
+        const long solid = substance(c.group, include);
+        c.castable = c.group.is_spatial() && solid > 0;
+        castable += c.castable;
+        richest = std::max(richest, c.castable ? solid : 0);
+    }
+    std::stable_sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
+        return std::tuple(a.castable, substance(a.group, include)) >
+               std::tuple(b.castable, substance(b.group, include));
+    });
+    const bool needs_pictures = castable > 1 || richest <= few_triangles;
+    for (std::size_t i = 0; i < candidates.size() && i < most_pictures; ++i) {
+        Candidate& c = candidates[i];
+        if (!pictures_of_all && !(needs_pictures && c.castable)) continue;
+        c.picture = draw_picture(c);
+        c.backdrop = c.castable && c.picture.flat && c.picture.coverage >= backdrop_coverage;
+    }
+    if (needs_pictures) find_insets(candidates, include);
+    const auto in_front = [](const Candidate& c) {
+        return std::tuple(c.castable, !c.group.erased, !c.backdrop, !c.inset);
+    };
+    const auto best = std::max_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
+        return in_front(a) < in_front(b);
+    });
+    richest = 0;
+    for (const Candidate& c : candidates)
+        if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
+    const auto key = [&](const Candidate& c) {
+        const long solid = substance(c.group, include);
+        const bool rich = 2 * solid >= richest;
+        return std::tuple(in_front(c), rich, rich && c.group.framebuffer == 0,
+                          rich && c.group.kind == ProjectionKind::perspective, solid, c.group.lines + c.group.points,
+                          area(c.group));
+    };
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](const Candidate& a, const Candidate& b) { return key(a) > key(b); });
+}
+
+} // namespace glcast::preload

@@ -1,0 +1,25 @@
+// A small picture of one group of draws as the program shows it.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "capture/engine.h"
+#include "capture/gl/gl_table.h"
+
+namespace glcast::preload {
+
+struct Thumbnail {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb; ///< bottom row first; what is not drawn is grey
+    double coverage = 0;           ///< share of the viewport that is drawn on, 0 to 1
+    bool flat = false;             ///< all of it at one depth
+};
+
+/// Draws into a framebuffer of ours, in the current context. `draw` plays the group through the table that it is
+/// given; the program's viewport, scissor, stencil, clears and framebuffers are left out. `size`: of the longer
+/// side.
+Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
+                         bool depth_reversed, int size);
+
+} // namespace glcast::preload
