@@ -10,6 +10,7 @@
 #include "capture/engine_layers.h"
 #include "capture/engine_normal.h"
 #include "capture/engine_pass.h"
+#include "capture/engine_slab.h"
 #include "capture/engine_target.h"
 
 namespace glcast {
@@ -76,6 +77,7 @@ class Capture {
             return;
         }
         report.float_targets = target.float_colour();
+        if (options.most_layers > 1) choose_method();
         for (Axis axis : {Axis::x, Axis::y, Axis::z})
             if (!capture_axis(target, axis)) return;
         if (covered == 0) report.error = "nothing solid was drawn";
@@ -98,14 +100,14 @@ class Capture {
             if (options.most_layers > 1) (side == Side::minus ? hits.first : hits.last) = image.depth;
             if (!send(std::move(image))) return false;
         }
-        return options.most_layers <= 1 || capture_layers(target, axis, std::move(hits));
+        return options.most_layers <= 1 || capture_layers(target, axis, hits);
     }
 
     /// False when the receiver stopped.
-    bool capture_layers(const Target& target, Axis axis, OuterHits&& hits) {
+    bool capture_layers(const Target& target, Axis axis, const OuterHits& hits) {
         const auto start = Clock::now();
         const int draws_before = passes.draws();
-        const AxisLayers layers = find_layers(target, axis, std::move(hits));
+        const AxisLayers layers = find_layers(target, axis, hits);
         report.layer_count[static_cast<int>(axis)] = layers.count;
         report.axis_complete[static_cast<int>(axis)] = layers.complete;
         report.layer_draws += passes.draws() - draws_before;
@@ -113,23 +115,32 @@ class Capture {
         return !layers.stopped;
     }
 
-    AxisLayers find_layers(const Target& target, Axis axis, OuterHits&& hits) {
+    AxisLayers find_layers(const Target& target, Axis axis, const OuterHits& hits) {
         if (nothing_between(hits, options.n)) return {};
         const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers};
         const auto layer_sink = [&](ViewImage&& image) {
             count(image);
             return send(std::move(image));
         };
-        if (!shader && options.use_shaders) shader = PeelShader::make(gl, options.n);
-        if (!shader) return {.complete = false};
-        return peel_axis(task, *shader, std::move(hits), layer_sink);
+        if (report.layer_method == LayerMethod::peel) {
+            const AxisLayers layers = peel_axis(task, *shader, hits, layer_sink);
+            if (layers.usable) return layers;
+            report.layer_method = LayerMethod::slab;
+        }
+        return slab_axis(task, hits, layer_sink);
+    }
+
+    void choose_method() {
+        report.layer_method = LayerMethod::slab;
+        if (options.layer_method == LayerMethod::slab || !options.use_shaders) return;
+        shader = PeelShader::make(gl, options.n);
+        if (shader) report.layer_method = LayerMethod::peel;
     }
 
     void judge_layers() {
         const bool all =
             std::all_of(report.axis_complete.begin(), report.axis_complete.end(), [](bool b) { return b; });
         report.layers = all ? Layers::complete : Layers::incomplete;
-        report.layer_method = LayerMethod::peel;
     }
 
     void capture_view(const Target& target, ViewImage& image) {

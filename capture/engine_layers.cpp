@@ -19,12 +19,11 @@ constexpr int most_hole_rounds = 256;
 
 class AxisPeeler {
   public:
-    AxisPeeler(const LayerTask& task, const PeelShader& shader, OuterHits&& hits)
+    AxisPeeler(const LayerTask& task, const PeelShader& shader, const OuterHits& hits)
         : task(task), shader(shader), n(task.target.size()), ranges(hits.first.size()) {
         for (std::size_t p = 0; p < ranges.size(); ++p)
             ranges[p] = hits.first[p] <= hits.last[p] ? PeelRange{hits.first[p], -1, hits.last[p]}
                                                       : PeelRange{-1, -1, closed};
-        hits = {};
         pass.box = task.box;
         pass.axis = task.axis;
         pass.side = Side::minus;
@@ -173,9 +172,9 @@ ViewImage blank_layer(int n, Axis axis, int layer) {
     return image;
 }
 
-AxisLayers peel_axis(const LayerTask& task, const PeelShader& shader, OuterHits&& hits,
+AxisLayers peel_axis(const LayerTask& task, const PeelShader& shader, const OuterHits& hits,
                      const LayerSink& sink) {
-    return AxisPeeler(task, shader, std::move(hits)).run(sink);
+    return AxisPeeler(task, shader, hits).run(sink);
 }
 
 } // namespace glcast

@@ -42,7 +42,7 @@ ViewImage blank_layer(int n, Axis axis, int layer);
 /// Peels with `shader` until a pass draws nothing. A fragment that alpha test or blending lets nobody see is
 /// peeled too, and passed over in the same layer. Not usable where the fixed fragment stage and the shader do
 /// not see a fragment at the same depth to the bit.
-AxisLayers peel_axis(const LayerTask& task, const PeelShader& shader, OuterHits&& hits,
+AxisLayers peel_axis(const LayerTask& task, const PeelShader& shader, const OuterHits& hits,
                      const LayerSink& sink);
 
 } // namespace glcast

@@ -180,7 +180,7 @@ void PassRunner::set_lights(const Pass& pass) const {
 bool PassRunner::mirrored(const Pass& pass) const {
     const ImageAxes axes = image_axes(pass.axis);
     const bool right_handed = (axes.u + 1) % 3 == axes.v; // u x v = +depth
-    const bool viewer_at_plus = pass.side == Side::plus;
+    const bool viewer_at_plus = pass.viewer.value_or(pass.side) == Side::plus;
     const bool reflected = glm::determinant(glm::dmat3(eye_to_capture)) < 0;
     return (right_handed != viewer_at_plus) != (reflected != mirrored_projection);
 }
