@@ -77,6 +77,40 @@ TEST(Transparency, errors_state_and_overlay_stay_as_they_are) {
     EXPECT_EQ(cast.capture->info.frame, 3);
 }
 
+struct LayersCase {
+    const char* layers;
+    const char* shaders;
+    Layers known;
+    LayerMethod method;
+};
+
+TEST(Transparency, however_layers_are_found) {
+    const LayersCase cases[] = {{"auto", "", Layers::complete, LayerMethod::peel},
+                                {"3", "", Layers::incomplete, LayerMethod::peel},
+                                {"slab", "", Layers::complete, LayerMethod::slab},
+                                {"auto", "0", Layers::complete, LayerMethod::slab},
+                                {"1", "", Layers::outer, LayerMethod::none}};
+    const std::vector<std::string> arguments = {
+        FIXTURE_GLX, "--shape", "twopot",  "--way",         "nested_lists", "--frames",
+        "3",         "--size",  "160x120", "--make-errors", "--angle-step", "10"};
+    const FixtureRun plain = run_fixture(arguments, {}, false);
+    std::optional<Capture> peeled;
+    for (const LayersCase& c : cases) {
+        SCOPED_TRACE(std::string(c.layers) + " shaders " + c.shaders);
+        const FixtureRun cast =
+            cast_fixture(arguments, {{"GLCAST_LAYERS", c.layers}, {"GLCAST_SHADERS", c.shaders}});
+        expect_unnoticed(plain, cast);
+        ASSERT_TRUE(cast.capture) << cast.outcome.err;
+        EXPECT_EQ(cast.capture->info.layers, c.known);
+        EXPECT_EQ(cast.capture->info.layer_method, c.method);
+        if (!peeled) peeled = cast.capture;
+        const CaptureDifference difference = compare(*peeled, *cast.capture);
+        EXPECT_LE(difference.coverage, difference.covered / 1000);
+        EXPECT_LT(difference.depth * 64, 0.01);
+    }
+    EXPECT_GE(peeled->info.layer_count[0], 6); // a pot in a pot
+}
+
 TEST(Transparency, overlay_is_not_cast) {
     const std::vector<std::string> plain = {FIXTURE_GLX, "--shape", "cube", "--frames", "1"};
     std::vector<std::string> with_overlay = plain;
