@@ -49,22 +49,22 @@ int open_axis(const Corners& t) {
     return -1;
 }
 
-bool inside_seen_along(int drop, const Corners& t, const Point& p) {
-    int most = 0, least = 0;
-    for (int k = 0; k < 3; ++k) {
-        const int side = orient2d(t[k], t[(k + 1) % 3], p, drop);
-        most |= side > 0;
-        least |= side < 0;
-    }
-    return !(most && least);
-}
-
+/// Convex, in one plane: apart when a line along an edge of the triangle or along the segment has them
+/// strictly on either side.
 bool coplanar_segment_meets(const Corners& t, const Point& p, const Point& q) {
     const int drop = open_axis(t);
-    if (drop >= 0 && inside_seen_along(drop, t, p)) return true;
-    for (int k = 0; k < 3; ++k)
-        if (segments_meet(t[k], t[(k + 1) % 3], p, q)) return true;
-    return false;
+    if (drop < 0) { // no area: its edges
+        for (int k = 0; k < 3; ++k)
+            if (segments_meet(t[k], t[(k + 1) % 3], p, q)) return true;
+        return false;
+    }
+    const int turn = orient2d(t[0], t[1], t[2], drop);
+    for (int k = 0; k < 3; ++k) {
+        const Point &a = t[k], &b = t[(k + 1) % 3];
+        if (turn * orient2d(a, b, p, drop) < 0 && turn * orient2d(a, b, q, drop) < 0) return false;
+    }
+    const int first = orient2d(p, q, t[0], drop);
+    return !(first && orient2d(p, q, t[1], drop) == first && orient2d(p, q, t[2], drop) == first);
 }
 
 /// `side_p`, `side_q`: where p and q lie from the triangle's plane.
