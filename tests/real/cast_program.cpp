@@ -6,6 +6,7 @@
 
 #include "tests/real/command.h"
 #include "tools/io/mesh_io.h"
+#include "tools/mesh/intersections.h"
 
 namespace glcast::test {
 namespace {
@@ -68,6 +69,7 @@ Cast cast_program(const RealProgram& program) {
     cast.manifold = step({MESH_ORACLE, plain}, tool_limit_seconds, complaints, &cast.oracle);
     cast.oracle += complaints;
     cast.mesh = read_mesh(mesh);
+    cast.self_intersections = count_self_intersections(cast.mesh.positions, cast.mesh.triangles);
     return cast;
 }
 

@@ -19,10 +19,11 @@ struct RealProgram {
 
 struct Cast {
     std::string name;
-    std::string error;     ///< what went wrong, empty when all went well
-    std::string oracle;    ///< what the independent check says of the mesh
-    bool manifold = false; ///< by the independent check
-    Mesh mesh;             ///< level 0
+    std::string error;                  ///< what went wrong, empty when all went well
+    std::string oracle;                 ///< what the independent check says of the mesh
+    bool manifold = false;              ///< by the independent check
+    std::size_t self_intersections = 0; ///< pairs of triangles of the full surface, as the file holds it
+    Mesh mesh;                          ///< level 0
 };
 
 /// Files go to the folder `real` of the build tree and stay there: NAME.exr, NAME.glb, NAME.png to look at.

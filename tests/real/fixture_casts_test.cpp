@@ -22,6 +22,7 @@ Cast cast_fixture(const std::string& shape) {
         {.name = "fixture-" + shape, .command = {FIXTURE_GLX, "--shape", shape}, .n = 256, .levels = false});
     EXPECT_EQ(cast.error, "");
     EXPECT_TRUE(cast.manifold) << cast.oracle;
+    EXPECT_EQ(cast.self_intersections, 0u);
     return cast;
 }
 

@@ -24,6 +24,7 @@ Cast expect_cast(const RealProgram& program) {
     Cast cast = cast_program(program);
     EXPECT_EQ(cast.error, "");
     EXPECT_TRUE(cast.manifold) << cast.oracle;
+    EXPECT_EQ(cast.self_intersections, 0u);
     // A body that fills the box has about n x n squares on each side; one that fills a thousandth of it is
     // still something.
     EXPECT_GT(cast.mesh.triangles.size(), static_cast<std::size_t>(program.n * program.n) / 50);
