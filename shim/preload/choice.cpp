@@ -8,8 +8,9 @@ namespace {
 
 constexpr double backdrop_coverage = 0.98;
 constexpr double inset_share = 1.0 / 50; ///< of the pixels that the largest covers
-constexpr long inset_richness = 10;      ///< so many times the triangles of the others: no inset
-constexpr long few_triangles = 64;       ///< a scene of so few may be a backdrop
+constexpr double corner_inset_share = 1.0 / 4;
+constexpr double corner_share = 1.0 / 16; ///< of the other's viewport: surely one
+constexpr long inset_richness = 10;       ///< in a larger one, so many times the triangles of the other: none
 constexpr std::size_t most_pictures = 16;
 
 void add(Group& all, const Group& one) {
@@ -37,10 +38,11 @@ void find_insets(std::vector<Candidate>& candidates, const Include& include) {
         if (!c.castable || c.backdrop || c.group.erased) continue;
         for (const Candidate& other : candidates) {
             if (&other == &c || !other.castable || other.backdrop || other.group.erased) continue;
-            const bool smaller = pixels(c) < inset_share * pixels(other);
             const bool richer =
                 substance(c.group, include) > inset_richness * substance(other.group, include);
-            c.inset |= smaller && !richer;
+            const bool in_corner = corner_share * double(area(other.group)) > double(area(c.group));
+            const bool smaller = pixels(c) < (in_corner ? corner_inset_share : inset_share) * pixels(other);
+            c.inset |= smaller && (in_corner || !richer);
         }
     }
 }
@@ -79,32 +81,29 @@ bool is_scene(const Candidate& candidate) { return candidate.castable && !candid
 
 void rank(std::vector<Candidate>& candidates, const Include& include, bool pictures_of_all,
           const std::function<Thumbnail(const Candidate&)>& draw_picture) {
-    long castable = 0, richest = 0;
     for (Candidate& c : candidates) {
         const long solid = substance(c.group, include);
         c.castable = c.group.is_spatial() && solid > 0;
-        castable += c.castable;
-        richest = std::max(richest, c.castable ? solid : 0);
     }
     std::stable_sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
         return std::tuple(a.castable, substance(a.group, include)) >
                std::tuple(b.castable, substance(b.group, include));
     });
-    const bool needs_pictures = castable > 1 || richest <= few_triangles;
     for (std::size_t i = 0; i < candidates.size() && i < most_pictures; ++i) {
         Candidate& c = candidates[i];
-        if (!pictures_of_all && !(needs_pictures && c.castable)) continue;
+        if (!pictures_of_all && !c.castable) continue;
         c.picture = draw_picture(c);
-        c.backdrop = c.castable && c.picture.flat && c.picture.coverage >= backdrop_coverage;
+        c.backdrop = c.castable && c.group.kind != ProjectionKind::perspective && c.picture.flat &&
+                     c.picture.coverage >= backdrop_coverage;
     }
-    if (needs_pictures) find_insets(candidates, include);
+    find_insets(candidates, include);
     const auto in_front = [](const Candidate& c) {
         return std::tuple(c.castable, !c.group.erased, !c.backdrop, !c.inset);
     };
     const auto best = std::max_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
         return in_front(a) < in_front(b);
     });
-    richest = 0;
+    long richest = 0;
     for (const Candidate& c : candidates)
         if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
     const auto key = [&](const Candidate& c) {

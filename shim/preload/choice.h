@@ -17,7 +17,7 @@ struct Candidate {
 
     // What `rank` found.
     bool castable = false; ///< drawn in space, with something that may be solid
-    bool backdrop = false; ///< fills its viewport at one depth: a gradient, a picture, a toolkit's own frame
+    bool backdrop = false; ///< fills its viewport at one depth, not in perspective: a gradient, a picture, a toolkit's own frame
     bool inset = false;    ///< small on the screen beside another: axes in a corner, a navigation cube
 };
 
@@ -26,8 +26,8 @@ std::vector<Candidate> merge(const std::vector<Scene>& scenes, const std::functi
 
 /// Puts what people mean first: castable, not painted over, no backdrop, no inset; then of those with at least
 /// half as many triangles as the richest, what is drawn to the window itself, then what is seen in perspective
-/// (of the four views of a CAD program that one); then most triangles. `draw_picture` is called only where the choice
-/// needs pictures, or for all with `pictures_of_all`.
+/// (of the four views of a CAD program that one); then most triangles. `draw_picture` is called for what is castable,
+/// or for all with `pictures_of_all`.
 void rank(std::vector<Candidate>& candidates, const Include& include, bool pictures_of_all,
           const std::function<Thumbnail(const Candidate&)>& draw_picture);
 

@@ -1,8 +1,11 @@
 // When frames are cast: every so many-th, so many in all, at a key, at a signal; and what the files are called.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <set>
+#include <thread>
 
 #include "shim/preload/output_name.h"
 #include "tests/preload/program_run.h"
@@ -62,6 +65,61 @@ TEST(Several, are_cast_and_the_program_sees_nothing) {
         EXPECT_EQ(plain.errors, cast.errors);
         EXPECT_EQ(plain.state, cast.state);
     }
+}
+
+/// Presses F12 under our X server until it is told to stop.
+class KeyPresser {
+  public:
+    KeyPresser() : thread([this] { press(); }) {}
+    ~KeyPresser() {
+        stop = true;
+        thread.join();
+    }
+
+  private:
+    void press() {
+        while (!stop) {
+            run_program({"xdotool", "key", "--delay", "30", "F12"}, {}, false);
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    }
+    std::atomic<bool> stop{false};
+    std::thread thread;
+};
+
+TEST(Key, asks_for_a_frame_and_reaches_the_program) {
+    const TemporaryFolder folder;
+    x_server();
+    const KeyPresser presser;
+    const Outcome outcome = run_program(
+        {SCENES, "keys"},
+        {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "16"}, {"GLCAST_KEY", "F12"}, {"GLCAST_CAPTURES", "1"}},
+        true);
+    EXPECT_EQ(outcome.out, "pressed 1\n") << outcome.err;
+    EXPECT_EQ(files_in(folder), std::set<std::string>{"cast.exr"}) << outcome.err;
+}
+
+TEST(Key, that_is_not_pressed_casts_nothing) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run_program(cube("5"), {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_KEY", "F12"}}, true);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(files_in(folder).empty());
+}
+
+/// A program that draws only when its window is exposed gives one frame by itself.
+TEST(Nudge, makes_frames_come) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> program = {FIXTURE_GLX, "--shape", "cube", "--on-expose", "--frames", "4"};
+    const Outcome outcome = run_program(program,
+                                        {{"GLCAST_OUT", folder / "%f.exr"},
+                                         {"GLCAST_N", "16"},
+                                         {"GLCAST_FRAME", "3"},
+                                         {"GLCAST_NUDGE", "1"},
+                                         {"GLCAST_QUIT", "1"}},
+                                        true);
+    EXPECT_FALSE(outcome.timed_out);
+    EXPECT_EQ(files_in(folder), std::set<std::string>{"3.exr"}) << outcome.err;
 }
 
 } // namespace

@@ -1,0 +1,15 @@
+/* A window with a context, for the programs of this folder. */
+#pragma once
+#include <GL/gl.h>
+#include <GL/glx.h>
+#include <X11/Xlib.h>
+
+extern Display* display;
+extern XVisualInfo* visual;
+Window make_window(int width, int height);
+GLXContext make_context(GLXContext share);
+/* A box from lo to hi; faces counter-clockwise from outside, flat normals. */
+void draw_box(const float lo[3], const float hi[3]);
+/* Three boxes: an L with a flag on it, that no rotation takes to its mirror image. chiral_boxes[i] is lo, hi. */
+extern const float chiral_boxes[3][2][3];
+void draw_chiral(void);
