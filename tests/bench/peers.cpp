@@ -1,5 +1,7 @@
 #include "tests/bench/peers.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -51,9 +53,10 @@ PeerResult by_openvdb(const std::vector<unsigned char>& volume, int n, const std
     ready();
     PeerResult result;
     result.resident_before = resident();
-    const double start = now();
+    const double start = now(), cpu = test::cpu_seconds();
     openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);
     result.seconds = now() - start;
+    result.cpu_seconds = test::cpu_seconds() - cpu;
     result.triangles = 2 * quads.size();
     return result;
 }
@@ -74,15 +77,23 @@ PeerResult by_vtk(const std::vector<unsigned char>& volume, int n, const std::fu
     ready();
     PeerResult result;
     result.resident_before = resident();
-    const double start = now();
+    const double start = now(), cpu = test::cpu_seconds();
     filter->Update();
     result.seconds = now() - start;
+    result.cpu_seconds = test::cpu_seconds() - cpu;
     result.triangles = std::size_t(filter->GetOutput()->GetNumberOfPolys());
     return result;
 }
 #endif
 
 } // namespace
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
 
 const std::vector<Peer>& peers() {
     static const std::vector<Peer> all = {

@@ -6,9 +6,12 @@
 
 namespace glcast::test {
 
+double cpu_seconds(); ///< of this process so far
+
 struct PeerResult {
-    std::size_t triangles = 0;  ///< quads count twice
-    double seconds = 0;         ///< of the extraction alone, the volume in the peer's own form before
+    std::size_t triangles = 0; ///< quads count twice
+    double seconds = 0;        ///< of the extraction alone, the volume in the peer's own form before
+    double cpu_seconds = 0;
     double resident_before = 0; ///< megabytes
 };
 

@@ -62,15 +62,15 @@ test::BodyPtr bracket() {
 struct Measured {
     int n = 0;
     std::size_t triangles = 0;
-    double carve = 0, contour = 0, attributes = 0, whole = 0; ///< seconds
-    double over_images = 0, in_all = 0, mesh = 0;             ///< megabytes
+    double carve = 0, contour = 0, attributes = 0, whole = 0, cpu = 0; ///< seconds
+    double over_images = 0, in_all = 0, mesh = 0;                      ///< megabytes
 };
 
 Measured measure(const std::vector<ViewImage>& images, int n, SurfaceMethod method, int times) {
-    Measured best{n, 0, 0, 0, 0, 1e9, 0, 0, 0};
+    Measured best{n, 0, 0, 0, 0, 1e9, 0, 0, 0, 0};
     for (int k = 0; k < times; ++k) {
         forget_peak();
-        const double before = resident("VmRSS:"), start = now();
+        const double before = resident("VmRSS:"), start = now(), cpu = test::cpu_seconds();
         ReconstructReport report;
         ReconstructOptions options;
         options.method = method;
@@ -87,6 +87,7 @@ Measured measure(const std::vector<ViewImage>& images, int n, SurfaceMethod meth
                 report.surface_seconds,
                 report.attribute_seconds,
                 whole,
+                test::cpu_seconds() - cpu,
                 resident("VmHWM:") - before,
                 resident("VmHWM:"),
                 bytes / 1048576};
@@ -95,8 +96,8 @@ Measured measure(const std::vector<ViewImage>& images, int n, SurfaceMethod meth
 }
 
 void print(const char* what, const Measured& m) {
-    std::printf("| %s | %d | %zu | %.3f | %.3f | %.3f | %.3f | %.1f | %.0f | %.0f | %.0f |\n", what, m.n,
-                m.triangles, m.carve, m.contour, m.attributes, m.whole,
+    std::printf("| %s | %d | %zu | %.3f | %.3f | %.3f | %.3f | %.3f | %.1f | %.0f | %.0f | %.0f |\n", what,
+                m.n, m.triangles, m.carve, m.contour, m.attributes, m.whole, m.cpu,
                 1e9 * (m.carve + m.contour) / std::pow(m.n, 3), m.over_images, m.mesh, m.in_all);
     std::fflush(stdout);
 }
@@ -135,20 +136,21 @@ void run_peers(const std::vector<ViewImage>& images, int n) {
     const std::vector<unsigned char> volume = volume_of(images, n);
     for (const test::Peer& peer : test::peers()) {
         const test::PeerResult result = peer.run(volume, n, [] { forget_peak(); });
-        std::printf("| %s | %d | %zu | | %.3f | | | %.1f | %.0f | | |\n", peer.name, n, result.triangles,
-                    result.seconds, 1e9 * result.seconds / std::pow(n, 3),
-                    resident("VmHWM:") - result.resident_before);
+        std::printf("| %s | %d | %zu | | %.3f | | %.3f | %.3f | %.1f | %.0f | | |\n", peer.name, n,
+                    result.triangles, result.seconds, result.seconds, result.cpu_seconds,
+                    1e9 * result.seconds / std::pow(n, 3), resident("VmHWM:") - result.resident_before);
         std::fflush(stdout);
     }
 }
 
 int run(const std::vector<int>& sizes, const std::string& body_name, bool peers) {
     const test::BodyPtr body = body_name == "bracket" ? bracket() : spheres();
-    std::printf("| %s | n | triangles | carve s | contour s | attributes s | whole s | carve and contour, ns "
-                "a cell | "
-                "MB over the images | MB of it the mesh | MB in all "
-                "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-                body_name.c_str());
+    std::printf(
+        "| %s | n | triangles | carve s | contour s | attributes s | whole s | CPU s | carve and contour, ns "
+        "a cell | "
+        "MB over the images | MB of it the mesh | MB in all "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        body_name.c_str());
     std::vector<Measured> all;
     for (const int n : sizes) {
         const std::vector<ViewImage> images = test::cast_body(*body, box, n);
