@@ -110,6 +110,50 @@ class BoxBody : public Body {
     glm::vec3 colour;
 };
 
+class Cylinder : public Body {
+  public:
+    Cylinder(dvec3 centre, dvec3 axis, double radius, double half, glm::vec3 colour)
+        : centre(centre), axis(glm::normalize(axis)), radius(radius), half(half), colour(colour) {}
+    std::vector<Stretch> cut(const dvec3& p, const dvec3& d) const override {
+        const dvec3 o = p - centre;
+        const double up = glm::dot(o, axis), rise = glm::dot(d, axis);
+        const dvec3 flat = o - axis * up, run = d - axis * rise;
+        Stretch s{-1e300, 1e300, {}, {}, colour, colour};
+        const double a = glm::dot(run, run), b = glm::dot(flat, run), c = glm::dot(flat, flat) - radius * radius;
+        if (a < 1e-14) {
+            if (c > 0) return {};
+        } else {
+            const double q = b * b - a * c;
+            if (q <= 0) return {};
+            s.t0 = (-b - std::sqrt(q)) / a;
+            s.t1 = (-b + std::sqrt(q)) / a;
+            s.n0 = (flat + run * s.t0) / radius;
+            s.n1 = (flat + run * s.t1) / radius;
+        }
+        if (std::abs(rise) < 1e-12) {
+            if (std::abs(up) > half) return {};
+        } else {
+            const double sign = rise > 0 ? 1 : -1;
+            const double in = (-sign * half - up) / rise, out = (sign * half - up) / rise;
+            if (in > s.t0) s.t0 = in, s.n0 = -axis * sign;
+            if (out < s.t1) s.t1 = out, s.n1 = axis * sign;
+        }
+        if (!(s.t0 < s.t1)) return {};
+        return {s};
+    }
+    double distance(const dvec3& p) const override {
+        const dvec3 o = p - centre;
+        const double up = glm::dot(o, axis);
+        const double out = glm::length(o - axis * up) - radius, over = std::abs(up) - half;
+        return out > 0 && over > 0 ? std::hypot(out, over) : std::max(out, over);
+    }
+
+  private:
+    dvec3 centre, axis;
+    double radius, half;
+    glm::vec3 colour;
+};
+
 class Union : public Body {
   public:
     explicit Union(std::vector<BodyPtr> parts) : parts(std::move(parts)) {}
@@ -196,6 +240,9 @@ BodyPtr torus(dvec3 centre, dvec3 axis, double ring, double tube, glm::vec3 colo
 BodyPtr box(dvec3 centre, dvec3 half, glm::dmat3 turn, glm::vec3 colour) {
     return std::make_shared<BoxBody>(centre, half, turn, colour);
 }
+BodyPtr cylinder(dvec3 centre, dvec3 axis, double radius, double half, glm::vec3 colour) {
+    return std::make_shared<Cylinder>(centre, axis, radius, half, colour);
+}
 BodyPtr unite(std::vector<BodyPtr> parts) { return std::make_shared<Union>(std::move(parts)); }
 BodyPtr subtract(BodyPtr from, BodyPtr what) {
     return std::make_shared<Difference>(std::move(from), std::move(what));
@@ -204,31 +251,38 @@ glm::dmat3 turned(dvec3 axis, double degrees) {
     return glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(degrees), axis));
 }
 
-std::vector<ViewImage> cast_body(const Body& body, const Box& box, int n, const NormalEdit& edit) {
+std::vector<ViewImage> cast_layers(const Body& body, const Box& box, int n, const NormalEdit& edit) {
     std::vector<ViewImage> images;
     for (int a = 0; a < 3; ++a) {
-        ViewImage near = blank({Axis(a), Side::minus, 0}, n), far = blank({Axis(a), Side::plus, 0}, n);
+        std::vector<ViewImage> layers{blank({Axis(a), Side::minus, 0}, n), blank({Axis(a), Side::plus, 0}, n)};
         const dvec3 d = ray_direction(Axis(a));
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const dvec3 p = ray_start(box, n, Axis(a), i, j);
                 const auto stretches = body.cut(p, d);
-                if (stretches.empty()) continue;
-                const Stretch &s = stretches.front(), &e = stretches.back();
-                const std::size_t at = std::size_t(j) * n + i;
-                const auto set = [&](ViewImage& image, double t, dvec3 normal, const glm::vec3& colour) {
+                const std::size_t at = std::size_t(j) * n + i, ends = 2 * stretches.size();
+                for (std::size_t k = 0; k < ends; ++k) {
+                    const Stretch& s = stretches[k / 2];
+                    const double t = k % 2 ? s.t1 : s.t0;
+                    dvec3 normal = k % 2 ? s.n1 : s.n0;
                     if (edit) normal = edit(p + d * t, normal);
-                    image.depth[at] =
-                        float(std::clamp(t / box.size, 0.0, 1.0)); // cut off by the near and far planes
-                    image.colour[at] = glm::vec4(colour, 1);
+                    const std::size_t layer = k == 0 ? 0 : k + 1 == ends ? 1 : k + 1; // 0, 1: the outer views
+                    while (layers.size() <= layer)
+                        layers.push_back(blank({Axis(a), Side::minus, int(layers.size()) - 1}, n));
+                    ViewImage& image = layers[layer];
+                    image.depth[at] = float(std::clamp(t / box.size, 0.0, 1.0)); // cut by the near and far planes
+                    image.colour[at] = glm::vec4(k % 2 ? s.c1 : s.c0, 1);
                     image.normal[at] = glm::vec4(glm::vec3(normal), 1);
-                };
-                set(near, s.t0, s.n0, s.c0);
-                set(far, e.t1, e.n1, e.c1);
+                }
             }
-        images.push_back(std::move(near));
-        images.push_back(std::move(far));
+        for (ViewImage& image : layers) images.push_back(std::move(image));
     }
+    return images;
+}
+
+std::vector<ViewImage> cast_body(const Body& body, const Box& box, int n, const NormalEdit& edit) {
+    std::vector<ViewImage> images = cast_layers(body, box, n, edit);
+    std::erase_if(images, [](const ViewImage& image) { return image.view.layer > 0; });
     return images;
 }
 
@@ -263,6 +317,30 @@ std::vector<dvec3> surface_points(const Body& body, const Box& box, int rays_per
                 if (stretches.empty()) continue;
                 points.push_back(p + d * stretches.front().t0);
                 points.push_back(p + d * stretches.back().t1);
+            }
+    return points;
+}
+
+std::vector<dvec3> visible_points(const Body& body, const Box& box, int rays_per_axis, int directions) {
+    std::vector<dvec3> points;
+    const auto visible = [&](const dvec3& p, const dvec3& normal) {
+        for (int k = 0; k < directions; ++k) {
+            const double z = 1 - (2 * k + 1.0) / directions, angle = k * 2.399963229728653;
+            const dvec3 d(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+            if (glm::dot(d, normal) < 0.05) continue;
+            const auto stretches = body.cut(p + normal * (1e-6 * box.size), d);
+            if (std::none_of(stretches.begin(), stretches.end(), [](auto& s) { return s.t1 > 0; })) return true;
+        }
+        return false;
+    };
+    for (int a = 0; a < 3; ++a)
+        for (int j = 0; j < rays_per_axis; ++j)
+            for (int i = 0; i < rays_per_axis; ++i) {
+                const dvec3 p = ray_start(box, rays_per_axis, Axis(a), i, j), d = ray_direction(Axis(a));
+                for (const Stretch& s : body.cut(p, d)) {
+                    if (visible(p + d * s.t0, s.n0)) points.push_back(p + d * s.t0);
+                    if (visible(p + d * s.t1, s.n1)) points.push_back(p + d * s.t1);
+                }
             }
     return points;
 }

@@ -34,4 +34,10 @@ inline Cast cast(const Body& body, int n, const ReconstructOptions& options = {}
     return cast(cast_body(body, test_box, n, edit), options);
 }
 
+/// From all layers.
+inline Cast cast_deep(const Body& body, int n, ReconstructOptions options = {}, const NormalEdit& edit = {}) {
+    options.complete_layers = true;
+    return cast(cast_layers(body, test_box, n, edit), options);
+}
+
 } // namespace glcast::test

@@ -22,8 +22,8 @@ constexpr double default_ratios[] = {0.1, 0.01};
 constexpr double fewest_by_default = 500; // triangles: fewer and most things lose their shape
 
 struct Options {
-    std::string capture, output, method = "contour", normals = "drawn";
-    double close_gaps = 1;
+    std::string capture, output, method = "contour", exterior = "layers", normals = "drawn";
+    double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> edges, triangles, ratio;
     bool check = false, json = false;
 };
@@ -34,6 +34,8 @@ struct Stopwatch {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 };
+
+const char* exterior_name(ExteriorRule rule) { return rule == ExteriorRule::layers ? "layers" : "axes"; }
 
 /// Everything there is to tell about a run.
 struct Made {
@@ -102,25 +104,30 @@ CheckDepth depth(const Options& options) {
     return options.check ? CheckDepth::everything : CheckDepth::topology;
 }
 
+ReconstructOptions how_to(const Options& options, const CaptureInfo& info) {
+    ReconstructOptions how;
+    how.method = options.method == "cubes" ? SurfaceMethod::cubes : SurfaceMethod::contour;
+    how.exterior = options.exterior == "axes" ? ExteriorRule::axes : ExteriorRule::layers;
+    how.complete_layers = info.layers == Layers::complete;
+    how.close_gaps = options.close_gaps;
+    how.sheet_thickness = options.sheet_thickness;
+    how.geometric_normals = options.normals == "geometric";
+    return how;
+}
+
 void make_surface(const Options& options, Made& made) {
-    Capture capture;
+    HitBuilder hits;
     {
         const Progress progress("reading " + options.capture);
         const Stopwatch watch;
-        capture = read_capture(options.capture);
+        made.info = read_capture(options.capture, [&](ViewImage&& image) { hits.add(image); });
         made.read_seconds = watch.seconds();
     }
     const Progress progress("making the surface");
     const Stopwatch watch;
-    made.info = capture.info;
-    made.sample = capture.info.box.size / capture.info.n;
-    std::erase_if(capture.images, [](const ViewImage& image) { return image.view.layer != 0; });
-    ReconstructOptions how;
-    how.method = options.method == "cubes" ? SurfaceMethod::cubes : SurfaceMethod::contour;
-    how.close_gaps = options.close_gaps;
-    how.geometric_normals = options.normals == "geometric";
-    made.levels.push_back(
-        {reconstruct(capture.images, capture.info.box, how, &made.report), "level 0", 0, 0, made.sample});
+    made.sample = made.info.box.size / made.info.n;
+    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how_to(options, made.info), &made.report),
+                           "level 0", 0, 0, made.sample});
     made.checks.push_back(check_mesh(made.full(), depth(options)));
     made.surface_seconds = watch.seconds();
     require_manifold(made.checks[0], "the surface");
@@ -197,10 +204,14 @@ void print_made(const Options& options, const Made& made) {
     for (const auto& file : made.files)
         json["files"].push_back({{"path", file.string()}, {"bytes", std::filesystem::file_size(file)}});
     for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(made, k));
-    json["surface"] = {{"filledSamples", r.filled_samples},
+    json["surface"] = {{"exterior", exterior_name(r.exterior)},
+                       {"layers", layers_name(made.info.layers)},
+                       {"filledSamples", r.filled_samples},
+                       {"hiddenSamples", r.hidden_samples},
                        {"thinSamples", r.thin_samples},
                        {"crossings", r.crossings},
                        {"unsupportedCrossings", r.unsupported_crossings},
+                       {"unsupportedAreaShare", r.unsupported_area_share},
                        {"verticesWithoutPixel", r.vertices_without_pixel}};
     json["seconds"] = {{"read", made.read_seconds},       {"carve", r.carve_seconds},
                        {"contour", r.surface_seconds},    {"attributes", r.attribute_seconds},
@@ -212,9 +223,11 @@ void print_made(const Options& options, const Made& made) {
 
 void say_made(const Options& options, const Made& made) {
     const ReconstructReport& r = made.report;
-    const double unseen = r.crossings ? 100.0 * double(r.unsupported_crossings) / double(r.crossings) : 0;
     say(options.capture + ": n = " + std::to_string(made.info.n) + ", sample " + number(made.sample) + ", " +
-        number(unseen) + " % of the surface seen by no ray");
+        number(100 * r.unsupported_area_share) + " % of the surface seen by no ray");
+    if (r.exterior == ExteriorRule::axes && options.exterior == "layers")
+        say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
+            "): cavities that no axis looks into are filled; capture again with --layers auto");
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         const Level& level = made.levels[k];
         std::string line = level.name + ": " + summary(made.checks[k]);
@@ -261,6 +274,14 @@ Run declare_mesh(CLI::App& app) {
     app.add_option("--method", options->method,
                    "contour: smooth, sharp edges kept; cubes: a square per exposed face")
         ->check(CLI::IsMember({"contour", "cubes"}))
+        ->capture_default_str();
+    app.add_option("--exterior", options->exterior,
+                   "layers: filled is what the outside does not reach or nobody can see; axes: what no axis sees past")
+        ->check(CLI::IsMember({"layers", "axes"}))
+        ->capture_default_str();
+    app.add_option("--sheet-thickness", options->sheet_thickness,
+                   "distance between the sides of a sheet drawn without thickness, in samples")
+        ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
     app.add_option("--close-gaps", options->close_gaps,
                    "close slits up to this radius, in samples; 0 keeps every gap")

@@ -6,12 +6,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "tools/reconstruct/planes.h"
-
 namespace glcast {
 namespace {
 
 constexpr float agreement = 0.3f;        // samples between a vertex and the plane that a pixel saw
+constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a sheet
 constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
@@ -30,9 +29,8 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
     return std::isfinite(length) && length > 1e-6f ? v / length : glm::vec3(0);
 }
 
-glm::vec3 drawn_normal(const ViewImage& image, std::size_t pixel) {
-    const glm::vec4& drawn = image.normal[pixel];
-    return drawn.w > 0 ? unit_or_zero(glm::vec3(drawn)) : glm::vec3(0);
+glm::vec3 drawn_normal(const AxisHits& hits, std::uint32_t hit) {
+    return hits.normal[hit] ? unpack_normal(hits.normal[hit]) : glm::vec3(0);
 }
 
 /// One view's opinion on a point: its up to four pixels that agree with the point's place.
@@ -65,25 +63,34 @@ class Opinion {
     }
 
   private:
+    /// The pixel's nearest hit that agrees; of two at one depth, as the two sides of a sheet are, the one on our side.
     void consider(int u, int v) {
         if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return;
         const std::size_t p = std::size_t(v) * rays.n + u;
-        const AxisRays& seen = rays.axis[axis];
-        const ViewImage& image = *seen.image[side];
-        const std::uint32_t packed = seen.plane[side][p];
-        if (!packed || !image.covered(p)) return;
-        Pixel pixel;
-        pixel.plane = unpack_normal(packed);
+        const AxisHits& hits = rays.axis[axis];
         const double away_u = at[axes.u] - u, away_v = at[axes.v] - v;
-        glm::vec3 from_hit;
-        from_hit[axes.u] = float(away_u);
-        from_hit[axes.v] = float(away_v);
-        from_hit[axes.depth] = float(at[axes.depth] - seen.depth[side][p]);
-        pixel.distance = std::abs(glm::dot(pixel.plane, from_hit));
-        if (!(pixel.distance < agreement)) return;
+        Pixel pixel;
+        pixel.distance = agreement;
+        std::uint32_t best = hits.start[p + 1];
+        for (std::uint32_t i = hits.start[p]; i < hits.start[p + 1]; ++i) {
+            if (!hits.plane[i]) continue;
+            glm::vec3 from_hit;
+            from_hit[axes.u] = float(away_u);
+            from_hit[axes.v] = float(away_v);
+            from_hit[axes.depth] = float(at[axes.depth] - hits.depth[i]);
+            const glm::vec3 plane = unpack_normal(hits.plane[i]);
+            const float distance = std::abs(glm::dot(plane, from_hit));
+            const bool nearer = distance < pixel.distance - same_place;
+            if (!nearer && !(side == 1 && best != hits.start[p + 1] && distance < pixel.distance + same_place))
+                continue;
+            pixel.distance = distance;
+            pixel.plane = plane;
+            best = i;
+        }
+        if (best == hits.start[p + 1]) return;
         pixel.weight = float((1 - std::abs(away_u)) * (1 - std::abs(away_v))) + 1e-6f;
-        pixel.normal = drawn_normal(image, p);
-        pixel.colour = glm::vec3(image.colour[p]);
+        pixel.normal = drawn_normal(hits, best);
+        pixel.colour = unpack_colour(hits.colour[best]);
         pixels[count++] = pixel;
     }
 
@@ -179,6 +186,21 @@ Square square_at(const Mesh& mesh, std::size_t q) {
     return square;
 }
 
+constexpr std::uint32_t no_hit = ~0u;
+
+std::uint32_t hit_near(const AxisHits& hits, std::size_t pixel, float depth, int side) {
+    std::uint32_t best = no_hit;
+    float nearest = square_agreement;
+    for (std::uint32_t i = hits.start[pixel]; i < hits.start[pixel + 1]; ++i) {
+        const float away = std::abs(hits.depth[i] - depth);
+        if (away < nearest || (side == 1 && away == nearest)) {
+            best = i;
+            nearest = away;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
@@ -206,16 +228,14 @@ std::size_t sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals)
     mesh.colours.assign(vertices, glm::vec3(0));
     for (std::size_t q = 0; 2 * q < mesh.triangles.size(); ++q) {
         const Square square = square_at(mesh, q);
-        const AxisRays& seen = rays.axis[square.axis];
-        const ViewImage& image = *seen.image[square.side];
-        const std::size_t pixel = rays.pixel(square.axis, square.sample);
+        const AxisHits& hits = rays.axis[square.axis];
         const float face = float(square.sample[square.axis]) + (square.side ? 0.5f : -0.5f);
-        if (!image.covered(pixel) || !(std::abs(seen.depth[square.side][pixel] - face) < square_agreement))
-            continue;
+        const std::uint32_t hit = hit_near(hits, rays.pixel(square.axis, square.sample), face, square.side);
+        if (hit == no_hit) continue;
         const Triangle &s = mesh.triangles[2 * q], &t = mesh.triangles[2 * q + 1];
         for (std::uint32_t v : square_corners(s, t)) {
-            mesh.colours[v] += glm::vec3(image.colour[pixel]);
-            drawn[v] += drawn_normal(image, pixel);
+            mesh.colours[v] += unpack_colour(hits.colour[hit]);
+            drawn[v] += drawn_normal(hits, hit);
             ++squares[v];
         }
     }

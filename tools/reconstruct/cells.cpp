@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <stdexcept>
 #include <tbb/parallel_for.h>
 
@@ -26,68 +25,12 @@ class Slice {
     std::vector<std::uint64_t> bits;
 };
 
-/// Fills slices from the three images that cross them.
-class Sweep {
-  public:
-    explicit Sweep(const Rays& rays) : rays(rays), n(rays.n), bytes((n + 2 + 63) / 64 * 64) {}
-    void fill(int z, Slice& slice);
-    std::size_t filled = 0, sheets = 0;
-
-  private:
-    bool fill_row(int y, int z);
-    bool fill_row_with_sheets(int y, int z);
-    void pack(std::uint64_t* to, std::size_t words);
-    const Rays& rays;
-    const int n;
-    std::vector<std::uint8_t> bytes; ///< byte x + 1 is sample x
-};
-
-bool Sweep::fill_row(int y, int z) {
-    const std::size_t in_x = std::size_t(z) * n + y, in_y = std::size_t(z) * n, in_z = std::size_t(y) * n;
-    const int first = rays.axis[0].first[in_x], last = rays.axis[0].last[in_x];
-    if (first > last) return false;
-    std::fill(bytes.begin(), bytes.end(), 0);
-    const std::int16_t *y0 = &rays.axis[1].first[in_y], *y1 = &rays.axis[1].last[in_y];
-    const std::int16_t *z0 = &rays.axis[2].first[in_z], *z1 = &rays.axis[2].last[in_z];
-    std::uint8_t* out = bytes.data() + 1;
-    const std::int16_t here_y = std::int16_t(y), here_z = std::int16_t(z);
-    for (int x = first; x <= last; ++x)
-        out[x] = (y0[x] <= here_y) & (here_y <= y1[x]) & (z0[x] <= here_z) & (here_z <= z1[x]);
-    return true;
-}
-
-bool Sweep::fill_row_with_sheets(int y, int z) {
-    std::fill(bytes.begin(), bytes.end(), 0);
-    for (int x = 0; x < n; ++x) {
-        const std::array<int, 3> s{x, y, z};
-        const bool all = rays.left_by_all(s);
-        bytes[x + 1] = all || rays.filled(s);
-        sheets += bytes[x + 1] && !all;
-    }
-    return true;
-}
-
-void Sweep::pack(std::uint64_t* to, std::size_t words) {
-    for (std::size_t w = 0; w < words; ++w) {
-        std::uint64_t word = 0;
-        for (int k = 0; k < 8; ++k) {
-            std::uint64_t eight;
-            std::memcpy(&eight, &bytes[w * 64 + k * 8], 8);
-            word |= (eight * 0x0102040810204080ull >> 56) << (8 * k);
-        }
-        to[w] = word;
-        filled += std::popcount(word);
-    }
-}
-
-void Sweep::fill(int z, Slice& slice) {
+void fill(const Volume& volume, int z, Slice& slice) {
     slice.clear();
-    if (z < 0 || z >= n) return;
-    for (int y = 0; y < n; ++y) {
-        const bool sheet_near = rays.axis[0].keep[std::size_t(z) * n + y] || rays.axis[1].row_keeps[z] ||
-                                rays.axis[2].row_keeps[y];
-        if (sheet_near ? fill_row_with_sheets(y, z) : fill_row(y, z)) pack(slice.row(y), slice.words);
-    }
+    if (z < 0 || z >= volume.n) return;
+    for (int y = 0; y < volume.n; ++y)
+        for (const Run* run = volume.begin(y, z); run != volume.end(y, z); ++run)
+            set_range(slice.row(y), run->first + 1, run->last + 1);
 }
 
 /// Cells of some layers, before they are joined to the whole.
@@ -96,7 +39,6 @@ struct Slab {
     std::vector<std::uint32_t> row_cells;
     std::vector<std::size_t> layer_quads;
     std::uint32_t vertices = 0;
-    std::size_t filled = 0, sheets = 0;
 };
 
 unsigned two_bits(const std::uint64_t* row, int x) {
@@ -155,19 +97,15 @@ void find_row(Slab& slab, const Rays& rays, const Slice& low, const Slice& high,
 
 Slab sweep_slab(const Rays& rays, int z0, int z1) {
     Slab slab;
-    Sweep sweep(rays);
     Slice low(rays.n), high(rays.n);
     Slice *below = &low, *above = &high;
-    sweep.fill(z0 - 1, *below);
-    sweep.filled = sweep.sheets = 0; // counted by the slab before
+    fill(rays.volume, z0 - 1, *below);
     for (int z = z0; z < z1; ++z) {
-        sweep.fill(z, *above);
+        fill(rays.volume, z, *above);
         slab.layer_quads.push_back(0);
         for (int y = 0; y <= rays.n; ++y) find_row(slab, rays, *below, *above, y, z);
         std::swap(below, above);
     }
-    slab.filled = sweep.filled;
-    slab.sheets = sweep.sheets;
     return slab;
 }
 
@@ -189,8 +127,6 @@ CellGrid join(const std::vector<Slab>& slabs, int n) {
         for (std::uint32_t count : slab.row_cells) grid.row_start.push_back(grid.row_start.back() + count);
         for (std::size_t quads : slab.layer_quads) grid.quad_start.push_back(grid.quad_start.back() + quads);
         grid.vertices += slab.vertices;
-        grid.filled_samples += slab.filled;
-        grid.sheet_samples += slab.sheets;
     }
     return grid;
 }
@@ -206,7 +142,7 @@ CellGrid find_cells(const Rays& rays) {
     });
     CellGrid grid = join(slabs, rays.n);
     if (grid.cells.empty())
-        throw std::runtime_error("the images enclose nothing: no sample is filled along all three axes");
+        throw std::runtime_error("the images enclose nothing: no sample is filled");
     return grid;
 }
 

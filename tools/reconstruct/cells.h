@@ -22,7 +22,6 @@ struct CellGrid {
     std::vector<std::uint32_t> row_start; ///< of row z * (n + 1) + y; one more at the end
     std::vector<std::size_t> quad_start;  ///< quads owned by the layers before; one more at the end
     std::uint32_t vertices = 0;
-    std::size_t filled_samples = 0, sheet_samples = 0;
 
     std::size_t row(int y, int z) const { return std::size_t(z) * (n + 1) + y; }
 };

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/reconstruct/hits.h"
+
 namespace glcast {
 namespace {
 
@@ -131,22 +133,22 @@ void negate(std::vector<float>& depth) {
 
 } // namespace
 
-ClosedDepths close_depths(const AxisRays& rays, int n, double radius) {
-    ClosedDepths out{rays.depth[0], rays.depth[1]};
+EndDepths close_depths(const EndDepths& captured, int n, double radius) {
+    EndDepths out = captured;
     if (radius <= 0) return out;
     const double disc = radius + 0.5; // of pixels, which reach half a sample further: slits up to 2r + 1 wide
-    std::vector<float> away = rays.depth[1], far = rays.depth[0]; // the back seen from behind
+    std::vector<float> away = captured.back, far = captured.front; // the back seen from behind
     negate(away);
     negate(far);
-    out.front = close(rays.depth[0], n, disc);
+    out.front = close(captured.front, n, disc);
     out.back = close(away, n, disc);
-    close_over_hollows(out.front, rays.depth[0], rays.depth[1], n, radius);
+    close_over_hollows(out.front, captured.front, captured.back, n, radius);
     close_over_hollows(out.back, away, far, n, radius);
     negate(out.back);
     for (std::size_t p = 0; p < out.front.size(); ++p)
         if (out.front[p] == no_depth || out.back[p] == -no_depth || out.front[p] > out.back[p]) {
-            out.front[p] = rays.depth[0][p];
-            out.back[p] = rays.depth[1][p];
+            out.front[p] = captured.front[p];
+            out.back[p] = captured.back[p];
         }
     return out;
 }

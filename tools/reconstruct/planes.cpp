@@ -68,79 +68,72 @@ Slope slope_of(float b2, float b1, float mid, float f1, float f2) {
     return slope;
 }
 
+/// The depths around a hit that continue its surface.
 struct Fit {
-    const std::vector<float>& depth;
+    const AxisHits& hits;
     int n;
-    float at(int u, int v) const {
-        return u < 0 || v < 0 || u >= n || v >= n ? no_depth : depth[std::size_t(v) * n + u];
+    std::uint32_t rank = 0, count = 0; ///< of the hit in its ray
+
+    /// In a ray with as many hits the one of the same rank, else the one nearest to where it should be.
+    float next(int u, int v, float expected) const {
+        if (u < 0 || v < 0 || u >= n || v >= n || !std::isfinite(expected)) return no_depth;
+        const std::size_t p = std::size_t(v) * n + u;
+        const std::uint32_t from = hits.start[p], to = hits.start[p + 1];
+        if (to - from == count) return hits.depth[from + rank];
+        float best = no_depth;
+        for (std::uint32_t i = from; i < to; ++i)
+            if (!(std::abs(hits.depth[i] - expected) >= std::abs(best - expected))) best = hits.depth[i];
+        return best;
     }
-    Slope along(int u, int v, int du, int dv) const {
-        return slope_of(at(u - 2 * du, v - 2 * dv), at(u - du, v - dv), at(u, v), at(u + du, v + dv),
-                        at(u + 2 * du, v + 2 * dv));
+    /// `slope`: what the drawn normal says, else 0.
+    Slope along(int u, int v, int du, int dv, float depth, float slope) const {
+        float beside[2], after[2];
+        for (int k = 0; k < 2; ++k) {
+            const int sign = k ? 1 : -1;
+            beside[k] = next(u + sign * du, v + sign * dv, depth + float(sign) * slope);
+            after[k] = next(u + 2 * sign * du, v + 2 * sign * dv, 2 * beside[k] - depth);
+        }
+        return slope_of(after[0], beside[0], depth, beside[1], after[1]);
     }
 };
 
-std::uint32_t plane_at(const Fit& fit, const ViewImage& image, const ImageAxes& axes, int u, int v) {
-    const std::size_t p = std::size_t(v) * fit.n + u;
-    if (!std::isfinite(fit.depth[p])) return 0;
-    const Slope along_u = fit.along(u, v, 1, 0), along_v = fit.along(u, v, 0, 1);
+std::uint32_t plane_at(const Fit& fit, std::uint32_t hit, const ImageAxes& axes, int u, int v) {
+    const std::uint32_t packed = fit.hits.normal[hit];
+    const glm::vec3 drawn = packed ? unpack_normal(packed) : glm::vec3(0);
+    float cu = -drawn[axes.u] / drawn[axes.depth], cv = -drawn[axes.v] / drawn[axes.depth];
+    const bool usable = std::isfinite(cu) && std::isfinite(cv);
+    if (!usable) cu = cv = 0;
+    const float depth = fit.hits.depth[hit];
+    const Slope along_u = fit.along(u, v, 1, 0, depth, cu), along_v = fit.along(u, v, 0, 1, depth, cv);
     float su = along_u.value, sv = along_v.value;
     bool known = along_u.known && along_v.known;
     const bool exact = known && along_u.bend < flat && along_v.bend < flat;
-    const glm::vec4& drawn = image.normal[p];
-    if (!exact && drawn.w > 0 && drawn[axes.depth] != 0) {
-        const float cu = -drawn[axes.u] / drawn[axes.depth], cv = -drawn[axes.v] / drawn[axes.depth];
-        if (std::isfinite(cu) && std::isfinite(cv) && along_u.allows(cu) && along_v.allows(cv)) {
-            su = cu;
-            sv = cv;
-            known = true;
-        }
+    if (!exact && usable && along_u.allows(cu) && along_v.allows(cv)) {
+        su = cu;
+        sv = cv;
+        known = true;
     }
     if (!known) return 0;
-    const float outward = image.view.side == Side::minus ? -1.0f : 1.0f;
     glm::vec3 normal;
-    normal[axes.u] = -su * outward;
-    normal[axes.v] = -sv * outward;
-    normal[axes.depth] = outward;
+    normal[axes.u] = -su;
+    normal[axes.v] = -sv;
+    normal[axes.depth] = 1;
     return pack_normal(glm::normalize(normal));
 }
 
-float fold(float a, float b) { return (1 - std::abs(b)) * (a >= 0 ? 1.0f : -1.0f); }
-
 } // namespace
 
-std::uint32_t pack_normal(const glm::vec3& unit) {
-    const float sum = std::abs(unit.x) + std::abs(unit.y) + std::abs(unit.z);
-    float a = unit.x / sum, b = unit.y / sum;
-    if (unit.z < 0) {
-        const float folded = fold(a, b);
-        b = fold(b, a);
-        a = folded;
-    }
-    const auto quantise = [](float x) { return std::uint32_t(std::lround(x * 32767) + 32768); };
-    return quantise(a) << 16 | quantise(b);
-}
-
-glm::vec3 unpack_normal(std::uint32_t packed) {
-    const float a = (int(packed >> 16) - 32768) / 32767.0f, b = (int(packed & 0xffff) - 32768) / 32767.0f;
-    const float z = 1 - std::abs(a) - std::abs(b);
-    const glm::vec3 out = z < 0 ? glm::vec3(fold(a, b), fold(b, a), z) : glm::vec3(a, b, z);
-    return out / std::sqrt(glm::dot(out, out));
-}
-
-void find_planes(Rays& rays) {
-    const int n = rays.n;
-    for (int a = 0; a < 3; ++a)
-        for (int side = 0; side < 2; ++side) {
-            AxisRays& axis = rays.axis[a];
-            axis.plane[side].resize(std::size_t(n) * n);
-            const Fit fit{axis.depth[side], n};
-            tbb::parallel_for(0, n, [&](int v) {
-                for (int u = 0; u < n; ++u)
-                    axis.plane[side][std::size_t(v) * n + u] =
-                        plane_at(fit, *axis.image[side], image_axes(Axis(a)), u, v);
-            });
+void find_planes(AxisHits& hits, Axis axis, int n) {
+    hits.plane.resize(hits.depth.size());
+    const ImageAxes axes = image_axes(axis);
+    tbb::parallel_for(0, n, [&](int v) {
+        for (int u = 0; u < n; ++u) {
+            const std::size_t p = std::size_t(v) * n + u;
+            const std::uint32_t from = hits.start[p], count = hits.start[p + 1] - from;
+            for (std::uint32_t i = 0; i < count; ++i)
+                hits.plane[from + i] = plane_at({hits, n, i, count}, from + i, axes, u, v);
         }
+    });
 }
 
 } // namespace glcast

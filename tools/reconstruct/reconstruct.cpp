@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "tools/reconstruct/attributes.h"
+#include "tools/reconstruct/carve.h"
 #include "tools/reconstruct/cells.h"
+#include "tools/reconstruct/exterior.h"
 #include "tools/reconstruct/frame.h"
 #include "tools/reconstruct/manifold.h"
+#include "tools/reconstruct/planes.h"
 #include "tools/reconstruct/quads.h"
 #include "tools/reconstruct/rays.h"
 #include "tools/reconstruct/vertices.h"
@@ -31,19 +34,43 @@ void to_capture_frame(Mesh& mesh, const CaptureFrame& frame) {
     for (glm::dvec3& p : mesh.positions) p = frame(p);
 }
 
+/// Fills the rays' volume by the rule that can be followed.
+void carve(Rays& rays, const ReconstructOptions& options, ReconstructReport& made) {
+    if (options.exterior == ExteriorRule::layers && options.complete_layers) {
+        Exterior found = find_exterior(rays, options.close_gaps);
+        made.exterior = ExteriorRule::layers;
+        made.thin_samples = found.thin_samples;
+        made.hidden_samples = found.hidden_samples;
+        rays.volume = std::move(found.volume);
+    } else {
+        Carved carved = carve_along_axes(rays, options.close_gaps);
+        made.exterior = ExteriorRule::axes;
+        made.thin_samples = carved.thin_samples;
+        rays.volume = std::move(carved.volume);
+    }
+    made.filled_samples = rays.volume.samples();
+}
+
 } // namespace
 
-Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
+Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& options,
                  ReconstructReport* report) {
     if (!(options.close_gaps >= 0) || !std::isfinite(options.close_gaps))
         throw std::runtime_error("the gap radius must be 0 samples or more");
+    if (!(options.sheet_thickness >= 0.01 && options.sheet_thickness <= 1))
+        throw std::runtime_error("the thickness of sheets must be 0.01 to 1 sample");
     ReconstructReport made;
     Stopwatch watch;
-    const Rays rays = make_rays(images, options.close_gaps);
+    Rays rays;
+    rays.n = hits.resolution();
+    rays.axis = hits.finish();
+    rays.half_thickness = float(options.sheet_thickness / 2);
+    carve(rays, options, made);
     const CellGrid grid = find_cells(rays);
     made.carve_seconds = watch.lap();
 
     const bool cubes = options.method == SurfaceMethod::cubes;
+    for (int a = 0; a < 3; ++a) find_planes(rays.axis[a], Axis(a), rays.n);
     Mesh mesh;
     mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(rays, grid);
     QuadReport quads;
@@ -58,12 +85,18 @@ Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const Recons
     to_capture_frame(mesh, frame);
     made.attribute_seconds = watch.lap();
 
-    made.filled_samples = grid.filled_samples;
-    made.thin_samples = grid.sheet_samples;
     made.crossings = quads.crossings;
     made.unsupported_crossings = quads.unsupported;
+    made.unsupported_area_share = quads.unsupported_area_share;
     if (report) *report = made;
     return mesh;
+}
+
+Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
+                 ReconstructReport* report) {
+    HitBuilder hits;
+    for (const ViewImage& image : images) hits.add(image);
+    return reconstruct(std::move(hits), box, options, report);
 }
 
 } // namespace glcast

@@ -1,4 +1,4 @@
-// From the six images to a closed surface. Knows nothing of files or GL.
+// From the captured images to a closed surface. Knows nothing of files or GL.
 // Carving, thin parts and colours: Natvig 2006, sections 3-5. Contour: Ju, Losasso, Schaefer and Warren 2002,
 // "Dual contouring of Hermite data", with one vertex per surface patch of a cell, so that it is two-manifold.
 #pragma once
@@ -6,6 +6,7 @@
 
 #include "capture/view_image.h"
 #include "tools/mesh/mesh.h"
+#include "tools/reconstruct/hits.h"
 #include "tools/reconstruct/mend.h"
 
 namespace glcast {
@@ -15,27 +16,42 @@ enum class SurfaceMethod {
     cubes,   ///< the paper's: a square per exposed face of each filled sub-cube, colour and normal per face
 };
 
+/// What counts as outside (docs/method.md).
+enum class ExteriorRule {
+    layers, ///< what free space reaches and somebody can see; needs every surface along the axes
+    axes,   ///< the paper's: what one of the six views sees past
+};
+
 struct ReconstructOptions {
     SurfaceMethod method = SurfaceMethod::contour;
-    double close_gaps = 1; ///< radius in samples of the closing of the depth images; 0 keeps every gap
+    ExteriorRule exterior = ExteriorRule::layers;
+    bool complete_layers = false; ///< the images hold every surface; else the rule is `axes` whatever was asked
+    double close_gaps = 1; ///< radius in samples: passages up to 2 r + 1 wide are closed; 0 keeps every gap
+    double sheet_thickness = 0.1;   ///< samples, 0.01..1: between the sides of a surface without thickness
     bool geometric_normals = false; ///< recompute normals from the surface instead of those drawn
 };
 
 struct ReconstructReport {
+    ExteriorRule exterior = ExteriorRule::axes; ///< the rule that was used
+    std::size_t hidden_samples = 0;             ///< free, but nobody outside can see them, and so filled
     std::size_t filled_samples = 0;
-    std::size_t thin_samples = 0;          ///< filled only because a sheet passes by
-    std::size_t crossings = 0;             ///< lattice edges that change sign
-    std::size_t unsupported_crossings = 0; ///< of these, how many no ray saw
-    std::size_t vertices_without_pixel =
-        0; ///< colour of a neighbour on the surface, normal of the surface itself
+    std::size_t thin_samples = 0;           ///< filled only because a sheet passes by
+    std::size_t crossings = 0;              ///< lattice edges that change sign
+    std::size_t unsupported_crossings = 0;  ///< of these, how many no ray saw
+    double unsupported_area_share = 0;      ///< of the surface's area, what lies about such crossings
+    std::size_t vertices_without_pixel = 0; ///< colour of a neighbour on the surface, normal of the surface itself
     MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };
 
-/// `images` holds layer 0 of all six views, same n. The mesh is a closed two-manifold, asserted before it is
-/// returned (throws std::logic_error, which is a bug), and does not pass through itself, in capture-frame
-/// units, normals unit length, colours as drawn. Throws std::runtime_error when a view is missing or nothing
-/// is filled. The same images give the same mesh, bit for bit, whatever the number of threads.
+/// `hits`: the images of a capture, all six outer views among them. The mesh is a closed two-manifold, asserted
+/// before it is returned (throws std::logic_error, which is a bug), and does not pass through itself, in capture-frame units,
+/// normals unit length, colours as drawn. Throws std::runtime_error when a view is missing or nothing is filled. The same images give
+/// the same mesh, bit for bit, whatever the number of threads.
+Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& options,
+                 ReconstructReport* report = nullptr);
+
+/// The same from images in memory. Throws also when they differ in size.
 Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
                  ReconstructReport* report = nullptr);
 

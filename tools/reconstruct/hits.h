@@ -1,0 +1,60 @@
+// What the rays of one axis hit: for each pixel, every surface from the smallest depth to the largest, with
+// colour and normal. Sparse: background costs four bytes a pixel, a hit sixteen.
+// Unit of length: samples. Sample i of an axis sits at coordinate i, so a ray runs from -1/2 to n - 1/2.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "capture/view_image.h"
+
+namespace glcast {
+
+inline constexpr float no_depth = std::numeric_limits<float>::infinity();
+
+/// Pixel (u, v) is index v * n + u; its hits are start[pixel] .. start[pixel + 1], ordered by depth.
+struct AxisHits {
+    std::vector<std::uint32_t> start;
+    std::vector<float> depth;
+    std::vector<std::uint32_t> plane;  ///< tangent plane, packed normal of unknown sign; 0 none (planes.h)
+    std::vector<std::uint32_t> normal; ///< as drawn, packed; 0 none
+    std::vector<std::uint32_t> colour; ///< as drawn, pack_colour
+
+    bool hit(std::size_t pixel) const { return start[pixel] != start[pixel + 1]; }
+    /// First and last depth; no_depth and -no_depth where nothing was hit.
+    float front(std::size_t pixel) const { return hit(pixel) ? depth[start[pixel]] : no_depth; }
+    float back(std::size_t pixel) const { return hit(pixel) ? depth[start[pixel + 1] - 1] : -no_depth; }
+};
+
+/// Unit vector in 32 bits (octahedral, 3e-5 radians); never 0.
+std::uint32_t pack_normal(const glm::vec3& unit);
+glm::vec3 unpack_normal(std::uint32_t packed);
+/// 0..1 with ten bits a channel: every 8-bit colour comes back as it was.
+std::uint32_t pack_colour(const glm::vec3& colour);
+glm::vec3 unpack_colour(std::uint32_t packed);
+
+/// Takes the images of a capture one at a time, in any order, so that they need not be in memory together.
+class HitBuilder {
+  public:
+    /// Throws std::runtime_error when the image's size is wrong or not that of the others, or when its view
+    /// was there before.
+    void add(const ViewImage& image);
+    /// Throws std::runtime_error when one of the six outer views is missing. Leaves the builder empty.
+    std::array<AxisHits, 3> finish();
+    int resolution() const { return n; } ///< 0 before the first image
+    bool has_layers() const { return layers; } ///< an image of what lies behind the first hit was given
+
+  private:
+    struct Layer {
+        View view;
+        std::vector<std::uint32_t> pixel, normal, colour;
+        std::vector<float> depth;
+    };
+    AxisHits merge(int axis);
+    int n = 0;
+    bool layers = false;
+    std::vector<Layer> added;
+};
+
+} // namespace glcast
