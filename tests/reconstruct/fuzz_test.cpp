@@ -13,7 +13,7 @@ namespace {
 bool makes_a_mesh(const std::vector<ViewImage>& images, SurfaceMethod method, double close_gaps,
                   bool ask_cgal) {
     try {
-        const Cast made = cast(images, {method, close_gaps, false});
+        const Cast made = cast(images, {.method = method, .close_gaps = close_gaps});
         for (const glm::dvec3& p : made.mesh.positions) {
             const glm::dvec3 away = (p - test_box.lo) / test_box.size;
             EXPECT_TRUE(away.x > -0.2 && away.x < 1.2 && away.y > -0.2 && away.y < 1.2 && away.z > -0.2 &&

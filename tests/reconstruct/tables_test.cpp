@@ -99,7 +99,7 @@ TEST(Patches, CubesOfNoiseDoNotTouch) { // the last rung of mend.cpp
     Dice dice(11);
     for (int trial = 0; trial < 6; ++trial) {
         const auto images = noise_images(20, dice.random, 1);
-        cast(images, {SurfaceMethod::cubes, 0, false});
+        cast(images, {.method = SurfaceMethod::cubes, .close_gaps = 0});
     }
 }
 

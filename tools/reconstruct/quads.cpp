@@ -138,6 +138,7 @@ class Layer {
     std::size_t unsupported = 0;
     std::vector<std::uint32_t> suspects;
     double stray = 0;
+    double area = 0, unsupported_area = 0;
 
   private:
     void run_row(int y, int z) {
@@ -174,10 +175,15 @@ class Layer {
         ++made;
         Triangle triangles[2] = {{vertex[d], vertex[d + 1], vertex[d + 2]},
                                  {vertex[d], vertex[d + 2], vertex[(d + 3) % 4]}};
+        double size = 0;
         for (Triangle& triangle : triangles) {
+            const glm::dvec3& corner = positions[triangle[0]];
+            size += glm::length(glm::cross(positions[triangle[1]] - corner, positions[triangle[2]] - corner));
             if (!low_filled) std::swap(triangle[1], triangle[2]);
             *out++ = triangle;
         }
+        area += size;
+        if (!crossing.supported) unsupported_area += size;
     }
 
     const Rays& rays;
@@ -202,11 +208,15 @@ std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
     tbb::parallel_for(0, grid.n + 1, [&](int z) {
         layers[z].run(z, triangles.data() + 2 * grid.quad_start[z], &report.first_quad[grid.row(0, z)]);
     });
+    double area = 0, unsupported_area = 0;
     for (const Layer& layer : layers) {
+        area += layer.area;
+        unsupported_area += layer.unsupported_area;
         report.unsupported += layer.unsupported;
         report.stray = std::max(report.stray, float(layer.stray));
         report.suspects.insert(report.suspects.end(), layer.suspects.begin(), layer.suspects.end());
     }
+    report.unsupported_area_share = area > 0 ? unsupported_area / area : 0;
     return triangles;
 }
 

@@ -15,6 +15,7 @@ struct QuadReport {
     /// The quads owned by the cells of row r are first_quad[r] .. first_quad[r + 1] (CellGrid::row).
     std::vector<std::uint32_t> first_quad;
     float stray = 0; ///< samples that a vertex is outside its cell along an axis, at most
+    double unsupported_area_share = 0; ///< of the area of all quads
 };
 
 /// Triangles 2 q and 2 q + 1 are quad q. Counter-clockwise from outside. `positions` in samples; `rounding`:
