@@ -3,10 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <glm/common.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <iostream>
+#include <random>
 
 #include "tests/real/cast_program.h"
+#include "tests/real/command.h"
 #include "tools/io/mesh_io.h"
 #include "tools/mesh/mesh.h"
 
@@ -120,6 +127,74 @@ TEST(Real, G3dviewer) {
     expect_close_where_placed(cast, read_mesh(model("t.obj")));
 }
 
+TEST(Real, Meshlab) {
+    const Cast cast = expect_cast({.name = "meshlab", .command = {"meshlab", model("t.ply")}});
+    expect_close_where_placed(cast, read_mesh(model("t.ply")));
+    for (const glm::vec3 colour : {glm::vec3(220, 60, 40), glm::vec3(40, 90, 220), glm::vec3(40, 200, 80)})
+        EXPECT_GT(area_share(cast.mesh, colour / 255.0f), 0.03) << colour.x << ' ' << colour.y << ' ' << colour.z;
+}
+
+struct Sphere {
+    glm::dvec3 centre{0};
+    double radius = 0;
+};
+
+Sphere least_squares(const std::vector<glm::dvec3>& points) {
+    glm::dmat4 normal(0.0);
+    glm::dvec4 right(0.0);
+    for (const glm::dvec3& p : points) {
+        const glm::dvec4 row(2.0 * p, 1);
+        normal += glm::outerProduct(row, row);
+        right += row * glm::dot(p, p);
+    }
+    const glm::dvec4 x = glm::inverse(normal) * right;
+    const glm::dvec3 centre(x);
+    return {centre, std::sqrt(std::max(0.0, x.w + glm::dot(centre, centre)))};
+}
+
+/// The sphere that most points lie on, among spheres through four of them (RANSAC): bonds, axes and the flat sides of
+/// half balls are left aside.
+Sphere fit_sphere(const std::vector<glm::dvec3>& points, double tolerance) {
+    std::mt19937 random(1);
+    const auto on = [&](const Sphere& sphere) {
+        std::vector<glm::dvec3> inliers;
+        for (const glm::dvec3& p : points)
+            if (std::abs(glm::distance(p, sphere.centre) - sphere.radius) < tolerance) inliers.push_back(p);
+        return inliers;
+    };
+    std::vector<glm::dvec3> best;
+    for (int trial = 0; trial < 2000; ++trial) {
+        std::vector<glm::dvec3> four;
+        for (int i = 0; i < 4; ++i) four.push_back(points.at(random() % points.size()));
+        const Sphere sphere = least_squares(four);
+        if (!std::isfinite(sphere.radius) || sphere.radius > 100 * tolerance) continue;
+        if (auto inliers = on(sphere); inliers.size() > best.size()) best = std::move(inliers);
+    }
+    return least_squares(best);
+}
+
+std::vector<glm::dvec3> points_of_colour(const Mesh& mesh, const glm::vec3& colour) {
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        if (glm::distance(glm::vec3(mesh.colours[i]), colour) < 0.15f) points.push_back(mesh.positions[i]);
+    return points;
+}
+/// Its atoms stand where the file says, but for one scale. It draws the halves that face the camera, so the rest of each
+/// sphere is known from the fit alone.
+TEST(Real, GdisHasItsAtomsInPlace) {
+    const Cast cast = expect_cast({.name = "gdis", .command = {"gdis", model("cell.xyz")}, .levels = false});
+    if (!cast.error.empty()) return;
+    constexpr double tolerance = 0.01; // half a sample
+    const Sphere carbon = fit_sphere(points_of_colour(cast.mesh, {0.55f, 0.9f, 0.6f}), tolerance),
+                 sulphur = fit_sphere(points_of_colour(cast.mesh, {1, 1, 0.6f}), tolerance),
+                 nitrogen = fit_sphere(points_of_colour(cast.mesh, {0.8f, 0.45f, 1}), tolerance);
+    const double scale = glm::distance(carbon.centre, sulphur.centre) / 1.8;
+    EXPECT_NEAR(glm::distance(carbon.centre, nitrogen.centre) / scale, std::sqrt(2.5), 0.02);
+    EXPECT_NEAR(glm::distance(sulphur.centre, nitrogen.centre) / scale, std::sqrt(3.94), 0.02);
+    EXPECT_NEAR(sulphur.radius / nitrogen.radius, 1, 0.05);
+    EXPECT_NEAR(carbon.radius / nitrogen.radius, 1, 0.05);
+}
+
 TEST(Real, GlknotsThroughEgl) {
     expect_cast({.name = "glknots", .command = {saver("glknots"), "-window"}, .n = 128});
 }
@@ -127,6 +202,37 @@ TEST(Real, GlknotsThroughEgl) {
 TEST(Real, SuperquadricsThroughEgl) {
     expect_cast({.name = "superquadrics", .command = {saver("superquadrics"), "-window"}, .n = 128});
 }
+
+class Saver : public testing::TestWithParam<const char*> {};
+TEST_P(Saver, is_cast) {
+    expect_cast({.name = GetParam(), .command = {saver(GetParam()), "-window"}, .n = 96, .levels = false});
+}
+INSTANTIATE_TEST_SUITE_P(Real, Saver, testing::Values("morph3d", "bouncingcow", "gears", "sproingies"),
+                         [](const auto& info) { return info.param; });
+
+struct Refused {
+    const char* name;
+    std::vector<std::string> command;
+    const char* says;
+};
+class OtherDrawing : public testing::TestWithParam<Refused> {};
+
+TEST_P(OtherDrawing, is_refused_in_a_plain_line) {
+    std::vector<std::string> command = {GLCAST_RUN,  "--headless", "--quit", "--timeout",
+                                        "25",        "-o",         std::string(testing::TempDir()) + "/none.exr", "--"};
+    command.insert(command.end(), GetParam().command.begin(), GetParam().command.end());
+    const CommandResult result =
+        run_command(command, 60, {{"PATH", std::string("/usr/bin:") + std::getenv("PATH")}});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find(GetParam().says), std::string::npos) << result.err;
+}
+INSTANTIATE_TEST_SUITE_P(Real, OtherDrawing,
+                         testing::Values(Refused{"es2gears", {"es2gears_x11"}, "it draws with OpenGL ES"},
+                                         Refused{"f3d", {"f3d", model("t.stl")}, "a core profile context"},
+                                         Refused{"view3dscene",
+                                                 {"view3dscene", model("t.wrl")},
+                                                 "it draws with shaders of its own"}),
+                         [](const auto& info) { return info.param.name; });
 
 } // namespace
 } // namespace glcast::test
