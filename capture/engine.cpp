@@ -218,4 +218,10 @@ std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const E
     }
 }
 
+bool can_make_target(const GlTable& gl) {
+    constexpr int any_size = 8;
+    const GlTable whole = with_framebuffer_calls(gl);
+    return has_framebuffer_calls(whole) && Target(whole, any_size, false).complete();
+}
+
 } // namespace glcast

@@ -68,4 +68,7 @@ EngineReport run_capture(const GlTable& gl, const DrawFunction& draw, const Engi
 /// Find the smallest cube (2 samples of margin at n) around all that is drawn; nothing when nothing is.
 std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
 
+/// Whether the current context can draw into a framebuffer object of any format: without, no capture can be made.
+bool can_make_target(const GlTable& gl);
+
 } // namespace glcast

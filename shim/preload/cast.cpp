@@ -13,6 +13,7 @@
 #include "shim/preload/axes.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/output_name.h"
+#include "shim/preload/mask.h"
 #include "shim/preload/real.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/strokes.h"
@@ -118,10 +119,11 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
 class Cast {
   public:
     Cast(const std::vector<FramePart>& frame_parts, long frame_number, const Options& of)
-        : parts(frame_parts), number(frame_number), options(of), gl(real_table()),
+        : parts(frame_parts), number(frame_number), options(of), gl(masked_table(real_table(), of.mask)),
           siblings(*frame_parts.front().context) {}
 
     CastResult run() {
+        if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
             siblings.enter(part);
             scenes.push_back(analyse(*part.frame, gl));
@@ -147,6 +149,12 @@ class Cast {
     SiblingScope siblings;
     std::vector<Scene> scenes;
     std::vector<Candidate> candidates;
+
+    /// Asked of GL itself: glvnd has the entry points in any case.
+    bool draws_into_framebuffers() {
+        siblings.enter(parts.front());
+        return can_make_target(gl);
+    }
 
     void enter_for(const Candidate& candidate) {
         for (std::size_t part = 0; part < parts.size(); ++part)

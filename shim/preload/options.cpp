@@ -99,6 +99,23 @@ bool parse_transparent(const std::string& text, Options& options) {
     return text == "keep" || text == "skip";
 }
 
+bool parse_mask(const std::string& text, Options& options) {
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        const std::string part = text.substr(at, end - at);
+        if (part == "float")
+            options.mask.floats = true;
+        else if (part == "fbo")
+            options.mask.framebuffers = true;
+        else if (part == "glsl")
+            options.use_shaders = false;
+        else
+            return false;
+        at = end + 1;
+    }
+    return true;
+}
+
 /// The variables beside GLCAST_OUT and what each may hold.
 struct Variable {
     const char* name;
@@ -140,6 +157,9 @@ constexpr Variable variables[] = {
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
+    {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
+    {"GLCAST_MEMORY", "MiB, a whole number from 1",
+     [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},
     {"GLCAST_READ_ENDS", "0 or 1",
      [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
     {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},

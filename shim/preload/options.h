@@ -6,6 +6,7 @@
 #include <string>
 
 #include "capture/engine.h"
+#include "shim/preload/mask.h"
 
 namespace glcast::preload {
 
@@ -58,6 +59,8 @@ struct Options {
     Transparent transparent = Transparent::by_alpha; ///< GLCAST_TRANSPARENT: keep, skip
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
+    Mask mask; ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these
+    std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
     std::string error;      ///< one line; not armed then

@@ -63,6 +63,7 @@ constinit std::atomic<bool> unwanted{false};
 Session& session() {
     static Session* const made = [] {
         auto* fresh = new Session;
+        record::set_memory_limit(fresh->options.memory_mib << 20);
         if (!fresh->options.error.empty()) {
             say("%s (nothing will be captured)", fresh->options.error.c_str());
             tell("failed", fresh->options.error);
@@ -294,7 +295,12 @@ void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
         number = ++s.ended[window].frames;
     }
     if (!s.triggers.waiting()) return;
-    const auto parts = take_parts(s, context, drawable);
+    auto parts = take_parts(s, context, drawable);
+    // Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
+    if (thread_state.context)
+        std::erase_if(parts, [](const FramePart& part) {
+            return part.context->display != thread_state.context->display;
+        });
     // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
     if (thread_state.context && is_destroyed(s, *thread_state.context)) return;
     const bool expected = context && number >= s.options.frame && is_late_enough(s);

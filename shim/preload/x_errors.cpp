@@ -3,7 +3,8 @@
 #include <X11/Xlib.h>
 #include <dlfcn.h>
 
-#include <atomic>
+#include <mutex>
+#include <vector>
 
 #include "shim/preload/real.h"
 
@@ -39,38 +40,51 @@ const XCalls& x_calls() {
     return calls;
 }
 
-/// What the handler needs to know; one trap at a time.
-struct Trap {
-    Display* display = nullptr;
-    unsigned long first_request = 0;
+/// All traps that live, of all threads. The handler is one for the process: the first trap puts it in place,
+/// the last gives the program's back.
+struct Traps {
+    std::mutex mutex; ///< never held over a request
+    std::vector<XErrorTrap*> living;
     XErrorHandler previous = nullptr;
-    std::atomic<bool> failed{false};
 };
-constinit Trap trap;
+Traps& traps() {
+    static auto* all = new Traps; // never destroyed: threads may outlive exit()
+    return *all;
+}
 
 int handle_error(Display* display, XErrorEvent* event) {
-    if (display == trap.display && event->serial >= trap.first_request) {
-        trap.failed = true;
-        return 0;
+    XErrorHandler previous = nullptr;
+    {
+        const std::lock_guard lock(traps().mutex);
+        for (XErrorTrap* trap : traps().living)
+            if (trap->catches(display, event->serial)) return 0;
+        previous = traps().previous;
     }
-    return trap.previous ? trap.previous(display, event) : 0;
+    return previous ? previous(display, event) : 0;
 }
 
 } // namespace
 
-XErrorTrap::XErrorTrap(void* display) {
+XErrorTrap::XErrorTrap(void* of) : display(of) {
     if (!x_calls().complete()) return;
-    trap.display = static_cast<Display*>(display);
-    trap.first_request = x_calls().next_request(trap.display);
-    trap.failed = false;
-    trap.previous = x_calls().set_handler(handle_error);
+    first_request = x_calls().next_request(static_cast<Display*>(display));
+    const std::lock_guard lock(traps().mutex);
+    traps().living.push_back(this);
+    if (traps().living.size() == 1) traps().previous = x_calls().set_handler(handle_error);
 }
 
 XErrorTrap::~XErrorTrap() {
     if (!x_calls().complete()) return;
-    x_calls().sync(trap.display, False);
-    x_calls().set_handler(trap.previous);
-    trap.display = nullptr;
+    x_calls().sync(static_cast<Display*>(display), False);
+    const std::lock_guard lock(traps().mutex);
+    std::erase(traps().living, this);
+    if (traps().living.empty()) x_calls().set_handler(traps().previous);
+}
+
+bool XErrorTrap::catches(const void* on, unsigned long request) {
+    if (on != display || request < first_request) return false;
+    has_failed = true;
+    return true;
 }
 
 bool x_drawable_exists(void* display, unsigned long drawable) {
@@ -84,14 +98,15 @@ bool x_drawable_exists(void* display, unsigned long drawable) {
 }
 
 std::string x_display_name(void* display) {
-    const char* name = x_calls().complete() && display ? x_calls().display_string(static_cast<Display*>(display)) : "";
+    const char* name =
+        x_calls().complete() && display ? x_calls().display_string(static_cast<Display*>(display)) : "";
     return name ? name : "";
 }
 
 bool XErrorTrap::failed() {
     if (!x_calls().complete()) return false;
-    x_calls().sync(trap.display, False);
-    return trap.failed;
+    x_calls().sync(static_cast<Display*>(display), False);
+    return has_failed;
 }
 
 } // namespace glcast::preload

@@ -1,12 +1,13 @@
 // X errors of requests of our own.
 #pragma once
+#include <atomic>
 #include <string>
 
 namespace glcast::preload {
 
 /// While one lives, X errors raised by requests sent since on this display are kept from the program's
-/// handler, which may end the program. One at a time. All others go on to it. Uses the program's libX11; does
-/// nothing without it.
+/// handler, which may end the program. All others go on to it. Threads may have traps at the same time
+/// (piglit's glx-multithread-clearbuffer). Uses the program's libX11; does nothing without it.
 class XErrorTrap {
   public:
     explicit XErrorTrap(void* display);
@@ -16,6 +17,14 @@ class XErrorTrap {
 
     /// Waits for the server's answer to everything sent so far.
     bool failed();
+
+    /// Of the handler: whether an error of that request is this trap's, which then has failed.
+    bool catches(const void* on, unsigned long request);
+
+  private:
+    void* const display;
+    unsigned long first_request = 0;
+    std::atomic<bool> has_failed{false};
 };
 
 /// Whether a window or pixmap exists. True where it cannot be asked.

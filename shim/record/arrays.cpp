@@ -122,6 +122,21 @@ constexpr ProgramSwitch program_switches[] = {
 
 } // namespace
 
+std::optional<std::uint32_t> restart_index(Context& context, GLenum type) {
+    const GlTable& gl = context.real;
+    const Limits& limits = context.get_limits();
+    const std::uint32_t largest = type == GL_UNSIGNED_BYTE    ? 0xFF
+                                  : type == GL_UNSIGNED_SHORT ? 0xFFFF
+                                                              : 0xFFFFFFFF;
+    if (limits.has(43, "GL_ARB_ES3_compatibility") && gl.IsEnabled(GL_PRIMITIVE_RESTART_FIXED_INDEX))
+        return largest;
+    if (limits.has(31) && gl.IsEnabled(GL_PRIMITIVE_RESTART))
+        return std::uint32_t(get_int(gl, GL_PRIMITIVE_RESTART_INDEX));
+    if (limits.has(99, "GL_NV_primitive_restart") && gl.IsEnabled(GL_PRIMITIVE_RESTART_NV))
+        return std::uint32_t(get_int(gl, GL_PRIMITIVE_RESTART_INDEX_NV));
+    return std::nullopt;
+}
+
 std::size_t element_bytes(const Array& array) {
     const auto n = std::size_t(array.size == GL_BGRA ? 4 : array.size);
     switch (array.type) {
@@ -154,6 +169,7 @@ void refresh_arrays(Context& context) {
     for (const Row& row : rows) add_array(context, row, 0);
     add_texture_arrays(context);
     if (!add_attribute_0(context)) add_array(context, vertex_row, 0);
+    context.restart = restart_index(context, GL_UNSIGNED_INT);
     context.arrays_dirty = false;
 }
 

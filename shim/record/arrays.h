@@ -21,4 +21,7 @@ inline constexpr GLenum attribute_0_array = GL_VERTEX_ATTRIB_ARRAY_ENABLED;
 /// Counts a draw that replay leaves out, with why.
 void count_if_not_played(Context& context);
 
+/// The primitive restart index in force for indices of a type; nothing where there is none.
+std::optional<std::uint32_t> restart_index(Context& context, GLenum type);
+
 } // namespace glcast::record

@@ -1,5 +1,7 @@
 #include "shim/record/buffers.h"
 
+#include <algorithm>
+
 namespace glcast::record {
 
 namespace {
@@ -112,6 +114,11 @@ Blob whole_buffer(Context& context, GLuint name) {
     const Bound buffer(context.real, name);
     const Limits& limits = context.get_limits();
     if (!buffer.readable(limits) || buffer.persistent(limits)) return nullptr;
+    if (context.recording) {
+        std::size_t& copied = context.recording->copied_bytes;
+        if (buffer.size() > memory_limit - std::min(copied, memory_limit)) throw std::bad_alloc();
+        copied += buffer.size();
+    }
     auto copy = std::make_shared<std::vector<std::byte>>(buffer.size());
     buffer.read(0, copy->data(), copy->size());
     const std::lock_guard lock(group.mutex);

@@ -69,6 +69,8 @@ struct Limits {
     }
 };
 
+extern std::size_t memory_limit;
+
 /// A frame that is being recorded.
 struct Recording {
     std::shared_ptr<Frame> frame = std::make_shared<Frame>();
@@ -79,6 +81,7 @@ struct Recording {
     int lowest[stack_count] = {}; ///< likewise of each matrix stack; 0: not watched, nothing lies below
     std::unordered_map<const void*, std::uint32_t> blob_numbers;
     std::unordered_map<GLuint, int> buffer_changes;
+    std::size_t copied_bytes = 0; ///< of whole buffers
     std::string given_up; ///< why; empty while all is well
 };
 
@@ -87,6 +90,9 @@ struct Compilation {
     GLuint name;
     bool executes;
     std::shared_ptr<Stream> stream = std::make_shared<Stream>();
+    Compilation(GLuint list, bool executes_too) : name(list), executes(executes_too) {
+        stream->most_bytes = memory_limit;
+    }
 };
 
 /// One client array, as queried.
@@ -110,6 +116,7 @@ struct Context {
     bool in_begin = false; ///< only true to life while `listening()`
     bool arrays_dirty = true;
     std::vector<Array> arrays;
+    std::optional<std::uint32_t> restart; ///< the index that glArrayElement takes for a restart
 
     Context(const GlTable& table, std::shared_ptr<ShareGroup> share_group)
         : real(table), group(std::move(share_group)) {}

@@ -77,22 +77,6 @@ void for_each_index(const std::byte* data, GLenum type, std::size_t count, Visit
     }
 }
 
-/// The restart index in force; nothing where there is none.
-std::optional<std::uint32_t> restart_index(Context& context, GLenum type) {
-    const GlTable& gl = context.real;
-    const Limits& limits = context.get_limits();
-    const std::uint32_t largest = type == GL_UNSIGNED_BYTE    ? 0xFF
-                                  : type == GL_UNSIGNED_SHORT ? 0xFFFF
-                                                              : 0xFFFFFFFF;
-    if (limits.has(43, "GL_ARB_ES3_compatibility") && gl.IsEnabled(GL_PRIMITIVE_RESTART_FIXED_INDEX))
-        return largest;
-    if (limits.has(31) && gl.IsEnabled(GL_PRIMITIVE_RESTART))
-        return std::uint32_t(get_int(gl, GL_PRIMITIVE_RESTART_INDEX));
-    if (limits.has(99, "GL_NV_primitive_restart") && gl.IsEnabled(GL_PRIMITIVE_RESTART_NV))
-        return std::uint32_t(get_int(gl, GL_PRIMITIVE_RESTART_INDEX_NV));
-    return std::nullopt;
-}
-
 bool find_indices(Draw& draw) {
     Indices& indices = draw.indices;
     const Call& call = draw.call;

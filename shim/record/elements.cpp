@@ -5,6 +5,7 @@
 #include "shim/record/arrays.h"
 #include "shim/record/buffers.h"
 #include "shim/record/packets.h"
+#include "shim/record/readable.h"
 
 namespace glcast::record {
 
@@ -97,6 +98,9 @@ const std::byte* element_at(Context& context, const Array& array, GLint index, B
                                                                                : nullptr;
 }
 
+/// Nobody has so many vertices: better ask than fall over it.
+bool is_far(GLint index) { return index < 0 || index > 1 << 22; }
+
 } // namespace
 } // namespace glcast::record
 
@@ -105,10 +109,15 @@ namespace glcast::record::custom {
 void APIENTRY ArrayElement(GLint index) {
     if (Context* context = listening_context()) {
         if (context->can_query()) prepare_arrays(*context);
+        if (context->restart == GLuint(index)) {
+            context->emit(true, [](Stream& stream) { packets::PrimitiveRestartNV::write(stream); });
+            return this_thread.real->ArrayElement(index);
+        }
         for (const Array& array : context->arrays) {
             Blob keep;
             const WriteElement write = writer_of(array);
             const std::byte* element = write ? element_at(*context, array, index, keep) : nullptr;
+            if (element && is_far(index) && !is_readable(element, element_bytes(array))) element = nullptr;
             if (element)
                 context->emit(true, [&](Stream& stream) { write(stream, array.unit, element); });
             else

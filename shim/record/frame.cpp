@@ -22,6 +22,7 @@ bool query_is_active(const GlTable& gl, const Limits& limits) {
 
 void start_recording(Context& context) {
     auto recording = std::make_unique<Recording>();
+    recording->frame->prologue.most_bytes = recording->frame->calls.most_bytes = memory_limit;
     write_state(context, recording->frame->prologue, true);
     read_matrices(context, *recording);
     const std::lock_guard lock(context.group->mutex);

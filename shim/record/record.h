@@ -37,6 +37,10 @@ const GlTable& table();
 extern std::atomic<std::uint32_t> active;
 bool always_shadowed(GlCall call);
 
+/// The most bytes that a frame's calls, or one list, or the buffers that a frame copies may take; more than that is as
+/// if memory had run out. For the whole process; to be set before anything is recorded.
+void set_memory_limit(std::size_t bytes);
+
 /// Why a frame cannot be recorded from here: null when it can, else "inside glBegin", "a display list is
 /// open", ...
 const char* busy(const Context& context);

@@ -27,7 +27,7 @@ CLASSES = [
         (Enable|Disable)VertexAttribArray BindVertexArray(APPLE)? DeleteVertexArrays PopClientAttrib
         ClientAttribDefaultEXT PushClientAttribDefaultEXT VertexAttribI?L?Format VertexAttribBinding VertexAttribDivisor
         BindVertexBuffers? VertexBindingDivisor VertexArray.* (Enable|Disable)VertexArray.* MultiTexCoordPointerEXT
-        VertexPointervINTEL NormalPointervINTEL ColorPointervINTEL TexCoordPointervINTEL .*PointerListIBM"""),
+        VertexPointervINTEL PrimitiveRestartIndex(NV)? NormalPointervINTEL ColorPointervINTEL TexCoordPointervINTEL .*PointerListIBM"""),
     ("bound_buffer:0", r"""BufferData BufferSubData MapBuffer MapBufferRange UnmapBuffer FlushMappedBufferRange
         BufferStorage ClearBuffer(Sub)?Data"""),
     ("bound_buffer:1", r"CopyBufferSubData"),
@@ -38,7 +38,7 @@ CLASSES = [
     ("once", r"""Gen[A-Z].* Delete[A-Z].* Create[A-Z].* Getn?[A-Z].* Is[A-Z].* Check[A-Z].* Are[A-Z].* Test[A-Z].*
         FeedbackBuffer SelectBuffer PixelStore[fi]
         ClientActiveTexture BindBuffer BindBufferRange BindBufferBase BindBuffersBase BindBuffersRange PushClientAttrib
-        PrimitiveRestartIndex(NV)? PrioritizeTextures BeginQuery EndQuery QueryCounter
+        PrioritizeTextures BeginQuery EndQuery QueryCounter
         (Begin|End)QueryIndexed BeginTransformFeedback .*(Shader|ShaderSource) ShaderSource .*Attach.* LinkProgram ValidateProgram
         BindAttribLocation BindFragDataLocation(Indexed)? Uniform[1-4].* UniformMatrix.* ProgramUniform.*
         ProgramParameteri ProgramBinary ShaderBinary UniformBlockBinding ReleaseShaderCompiler UseProgramStages

@@ -10,9 +10,11 @@ void Stream::add_chunk(std::size_t at_least) {
         chunks.empty() ? first_chunk : std::min(chunks.back().capacity * 2, largest_chunk);
     Chunk chunk;
     chunk.capacity = std::max(next, at_least);
+    if (chunk.capacity > most_bytes || chunk_bytes > most_bytes - chunk.capacity) throw std::bad_alloc();
     chunk.data.reset(static_cast<std::byte*>(std::malloc(chunk.capacity)));
     if (!chunk.data) throw std::bad_alloc();
     chunks.push_back(std::move(chunk));
+    chunk_bytes += chunks.back().capacity;
 }
 
 std::byte* Stream::append(Op op, std::size_t bytes) {
@@ -42,15 +44,14 @@ void Stream::shrink() {
             static_cast<std::byte*>(std::realloc(last.data.get(), std::max<std::size_t>(last.used, 1)))) {
         last.data.release();
         last.data.reset(smaller);
+        chunk_bytes -= last.capacity - last.used;
         last.capacity = last.used;
     }
     chunks.shrink_to_fit();
 }
 
 std::size_t Stream::allocated_bytes() const {
-    std::size_t sum = chunks.capacity() * sizeof(Chunk);
-    for (const Chunk& chunk : chunks) sum += chunk.capacity;
-    return sum;
+    return chunks.capacity() * sizeof(Chunk) + chunk_bytes;
 }
 
 } // namespace glcast::record

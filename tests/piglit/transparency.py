@@ -26,7 +26,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 FOLDERS = [*Path("/usr/lib").glob("*/piglit"), Path("/usr/lib/piglit")]
-SLOW_CPU, SHIM_CPU, WALL = 3, 10, 90  # seconds
+SLOW_CPU, SHIM_CPU, WALL = 3, 10, 300  # seconds
 SPARSE = 1000  # every how many frames, for those that end ten thousand of them
 RETRIES = 6
 LEAST_PROGRAMS, LEAST_CASTING = 150, 100

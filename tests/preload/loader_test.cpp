@@ -25,6 +25,9 @@ const Road roads[] = {
     {"egl_dlopen", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen"}},
     {"egl_dlopen_deepbind", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen-deepbind"}},
     {"second_thread", {FIXTURE_GLX, "--thread"}},
+    {"egl_second_thread", {FIXTURE_EGL, "--thread"}},
+    {"egl_two_windows", {FIXTURE_EGL, "--windows", "2"}},
+    {"dlopen_in_second_thread", {FIXTURE_GLX_DLOPEN, "--loader", "dlopen", "--thread"}},
     {"two_windows", {FIXTURE_GLX, "--windows", "2"}},
     {"single_buffered", {FIXTURE_GLX, "--single-buffered"}},
 };
@@ -73,15 +76,33 @@ CastProgram cast(const std::vector<std::string>& arguments) {
     return result;
 }
 
-TEST(Process, child_of_a_launcher_is_cast) {
-    const std::string fixture = FIXTURE_GLX;
+/// A program, or a plugin, for each window system.
+struct OnSystem {
+    const char* name;
+    const char* fixture;
+    const char* forks;
+    const char* plugin_name;
+    const char* plugin;
+};
+void PrintTo(const OnSystem& system, std::ostream* out) { *out << system.name; }
+const OnSystem systems[] = {{"GLX", FIXTURE_GLX, FORKS, "libcubes_plugin.so", CUBES_PLUGIN},
+                            {"EGL", FIXTURE_EGL, FORKS_EGL, "libcubes_plugin_egl.so", CUBES_PLUGIN_EGL}};
+class Process : public testing::TestWithParam<OnSystem> {};
+class Plugin : public testing::TestWithParam<OnSystem> {};
+INSTANTIATE_TEST_SUITE_P(Systems, Process, testing::ValuesIn(systems),
+                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Systems, Plugin, testing::ValuesIn(systems),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(Process, child_of_a_launcher_is_cast) {
+    const std::string fixture = GetParam().fixture;
     const auto result = cast({"sh", "-c", fixture + " --shape cube --frames 1; exit 5"});
     EXPECT_TRUE(result.capture) << result.outcome.err;
     EXPECT_EQ(result.outcome.exit_code, 5);
 }
 
-TEST(Process, forked_child_leaves_the_capture_alone) {
-    const auto result = cast({FORKS});
+TEST_P(Process, forked_child_leaves_the_capture_alone) {
+    const auto result = cast({GetParam().forks});
     ASSERT_TRUE(result.capture) << result.outcome.err;
     EXPECT_EQ(result.capture->info.frame, 2); // the first is empty
     EXPECT_EQ(result.outcome.exit_code, 0);
@@ -89,16 +110,16 @@ TEST(Process, forked_child_leaves_the_capture_alone) {
     EXPECT_EQ(result.outcome.err.find("nothing captured"), std::string::npos) << result.outcome.err;
 }
 
-TEST(Plugin, found_by_runpath_and_cast) {
+TEST_P(Plugin, found_by_runpath_and_cast) {
     if (sanitized) GTEST_SKIP() << "the sanitizer is the caller of dlopen";
-    const auto result = cast({PLUGIN_HOST, "libcubes_plugin.so"});
+    const auto result = cast({PLUGIN_HOST, GetParam().plugin_name});
     EXPECT_TRUE(result.capture) << result.outcome.err;
     EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
 }
 
-TEST(Plugin, bound_to_itself_is_cast_too) {
+TEST_P(Plugin, bound_to_itself_is_cast_too) {
     if (sanitized) GTEST_SKIP() << "the sanitizer refuses RTLD_DEEPBIND";
-    const auto result = cast({PLUGIN_HOST, CUBES_PLUGIN, "deepbind"});
+    const auto result = cast({PLUGIN_HOST, GetParam().plugin, "deepbind"});
     EXPECT_TRUE(result.capture) << result.outcome.err;
     EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
 }

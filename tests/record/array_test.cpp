@@ -151,6 +151,17 @@ const Case cases[] = {
          begin_scene(gl);
          gl.DrawElementsBaseVertex(GL_TRIANGLES, 3, GL_UNSIGNED_INT, indices, 10);
      }},
+    {"element_that_restarts", nullptr,
+     [](auto& gl) {
+         begin_scene(gl);
+         set_arrays(gl, fan);
+         gl.Enable(GL_PRIMITIVE_RESTART);
+         gl.PrimitiveRestartIndex(1u << 30); // nothing can be read there
+         gl.Begin(GL_TRIANGLE_STRIP);
+         for (const GLint i : {0, 1, 2, 1 << 30, 3, 4, 5}) gl.ArrayElement(i);
+         gl.End();
+         gl.Disable(GL_PRIMITIVE_RESTART);
+     }},
     {"instanced", nullptr,
      [](auto& gl) {
          begin_scene(gl);

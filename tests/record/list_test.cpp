@@ -103,6 +103,80 @@ const Case cases[] = {
          gl.NewList(1, GL_COMPILE), triangle(gl, 1, 0, 0, 0.5f), gl.EndList();
          gl.CallList(2);
      }},
+    {"redefined_between_compile_and_call",
+     [](auto& gl) {
+         gl.NewList(1, GL_COMPILE), triangle(gl, -1), gl.EndList();
+         gl.NewList(2, GL_COMPILE), gl.CallList(1), gl.EndList();
+         gl.NewList(1, GL_COMPILE), triangle(gl, 1, 0.5f, 0, 0.7f), gl.EndList();
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(2);
+     }},
+    {"deleted_between_compile_and_call",
+     [](auto& gl) {
+         gl.NewList(1, GL_COMPILE), triangle(gl, -1), gl.EndList();
+         gl.NewList(2, GL_COMPILE), gl.Rectf(-1, -1, 0, 0), gl.CallList(1), gl.Rectf(0.5f, 0.5f, 1, 1),
+             gl.EndList();
+         gl.DeleteLists(1, 1);
+     },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.CallList(2);
+     }},
+    {"redefined_while_it_is_compiled_and_executed",
+     [](auto& gl) { gl.NewList(1, GL_COMPILE), triangle(gl, -1), gl.EndList(); },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.NewList(1, GL_COMPILE_AND_EXECUTE);
+         gl.CallList(1); // the one before: the new one takes its place at glEndList
+         triangle(gl, 1, 0, 0, 0.5f);
+         gl.EndList();
+     }},
+    {"errors_inside_begin", [](auto& gl) { gl.NewList(1, GL_COMPILE), triangle(gl, 0.5f), gl.EndList(); },
+     [](auto& gl) {
+         begin_scene(gl);
+         gl.Begin(GL_TRIANGLES);
+         gl.NewList(1, GL_COMPILE); // refused, and so are these
+         gl.EndList(), gl.DeleteLists(1, 1);
+         gl.Vertex2f(-1, -1), gl.Vertex2f(0, -1), gl.Vertex2f(-1, 0);
+         gl.End();
+         while (gl.GetError() != GL_NO_ERROR) {
+         }
+         gl.CallList(1);
+     }},
+    {"elements_of_a_buffer_that_goes", nullptr,
+     [](auto& gl) {
+         const GLfloat vertices[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+         const GLubyte indices[] = {0, 1, 2, 0, 2, 3};
+         GLuint buffers[2] = {};
+         begin_scene(gl);
+         gl.Color3f(0, 1, 1);
+         gl.GenBuffers(2, buffers);
+         gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]),
+             gl.BufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STATIC_DRAW);
+         gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+         gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices, GL_STATIC_DRAW);
+         gl.VertexPointer(3, GL_FLOAT, 0, nullptr), gl.EnableClientState(GL_VERTEX_ARRAY);
+         gl.NewList(1, GL_COMPILE), gl.DrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_BYTE, nullptr), gl.EndList();
+         gl.DisableClientState(GL_VERTEX_ARRAY);
+         gl.DeleteBuffers(2, buffers);
+         gl.CallList(1);
+     }},
+    {"interleaved_elements_dereferenced", nullptr,
+     [](auto& gl) {
+         GLfloat vertices[3][6] = {{1, 0, 0, -1, -1, 0}, {0, 1, 0, 1, -1, 0}, {0, 0, 1, 0, 1, 0}};
+         begin_scene(gl);
+         gl.InterleavedArrays(GL_C3F_V3F, 0, vertices);
+         gl.NewList(1, GL_COMPILE);
+         gl.Begin(GL_TRIANGLES);
+         for (GLint i = 0; i < 3; ++i) gl.ArrayElement(i);
+         gl.End();
+         gl.EndList();
+         for (auto& vertex : vertices) vertex[3] *= 0.1f;
+         gl.CallList(1);
+         gl.DisableClientState(GL_VERTEX_ARRAY), gl.DisableClientState(GL_COLOR_ARRAY);
+     }},
     {"deleted_in_the_frame", [](auto& gl) { gl.NewList(1, GL_COMPILE), triangle(gl), gl.EndList(); },
      [](auto& gl) {
          begin_scene(gl);
@@ -339,6 +413,28 @@ TEST(Lists, defined_in_one_context_called_in_another) {
     rig.program.make_current();
     record::set_current(rig.context.get(), rig.program.gl());
     rig.gl().CallList(9);
+    rig.end();
+    const Picture direct = rig.direct();
+    EXPECT_GT(Rig::covered(direct), 20u);
+    EXPECT_TRUE(rig.replayed() == direct);
+}
+
+TEST(Lists, deleted_by_another_context) {
+    Rig rig;
+    OsmesaContext other(8, 8, &rig.program);
+    auto other_shadow = record::make_context(other.gl(), rig.context);
+    rig.gl().NewList(9, GL_COMPILE), triangle(rig.gl()), rig.gl().EndList();
+    rig.gl().NewList(10, GL_COMPILE), rig.gl().CallList(9), rig.gl().EndList();
+    rig.begin();
+    begin_scene(rig.gl());
+    rig.gl().CallList(10);
+    other.make_current();
+    record::set_current(other_shadow.get(), other.gl());
+    rig.gl().DeleteLists(9, 1);
+    rig.program.make_current();
+    record::set_current(rig.context.get(), rig.program.gl());
+    rig.gl().Translatef(1.5f, 0, 1);
+    rig.gl().CallList(10);
     rig.end();
     const Picture direct = rig.direct();
     EXPECT_GT(Rig::covered(direct), 20u);

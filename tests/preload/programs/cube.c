@@ -1,9 +1,15 @@
-// A window with a cube in it, by GLX and immediate mode: as small as such a program can be.
+// A window with a cube in it, by GLX (or by EGL: CUBE_EGL) and immediate mode: as small as such a program can
+// be.
 #include "cube.h"
 
 #include <GL/gl.h>
+#ifdef CUBE_EGL
+#include <EGL/egl.h>
+#else
 #include <GL/glx.h>
+#endif
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 
 static void draw_cube(void) {
     static const float corners[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
@@ -31,30 +37,82 @@ static void set_camera(void) {
     glTranslatef(0, 0, -6);
 }
 
-int draw_cubes(int frames, void (*before_frame)(int frame)) {
-    Display* display = XOpenDisplay(0);
-    if (!display) return 10;
-    int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
-    XVisualInfo* visual = glXChooseVisual(display, DefaultScreen(display), attributes);
-    if (!visual) return 11;
-    const Window root = RootWindow(display, visual->screen);
+typedef struct {
+    Display* display;
+    Window window;
+    void* context;
+#ifdef CUBE_EGL
+    EGLDisplay egl;
+    EGLConfig config;
+    EGLSurface surface;
+#endif
+} Place;
+
+static void open_window(Place* s, const XVisualInfo* visual) {
+    const Window root = RootWindow(s->display, visual->screen);
     XSetWindowAttributes looks = {0};
-    looks.colormap = XCreateColormap(display, root, visual->visual, AllocNone);
-    const Window window = XCreateWindow(display, root, 0, 0, 100, 100, 0, visual->depth, InputOutput,
-                                        visual->visual, CWColormap | CWBorderPixel, &looks);
-    XMapWindow(display, window);
-    GLXContext context = glXCreateContext(display, visual, 0, True);
-    if (!context || !glXMakeCurrent(display, window, context)) return 12;
+    looks.colormap = XCreateColormap(s->display, root, visual->visual, AllocNone);
+    s->window = XCreateWindow(s->display, root, 0, 0, 100, 100, 0, visual->depth, InputOutput, visual->visual,
+                              CWColormap | CWBorderPixel, &looks);
+    XMapWindow(s->display, s->window);
+}
+
+#ifdef CUBE_EGL
+static int open_gl(Place* s) {
+    const EGLint wanted[] = {
+        EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 16, EGL_NONE};
+    EGLint count = 0, id = 0;
+    s->egl = eglGetDisplay((EGLNativeDisplayType)s->display);
+    if (!eglInitialize(s->egl, 0, 0) || !eglBindAPI(EGL_OPENGL_API)) return 11;
+    if (!eglChooseConfig(s->egl, wanted, &s->config, 1, &count) || count == 0) return 11;
+    eglGetConfigAttrib(s->egl, s->config, EGL_NATIVE_VISUAL_ID, &id);
+    XVisualInfo like = {0};
+    like.visualid = (VisualID)id;
+    XVisualInfo* visual = XGetVisualInfo(s->display, VisualIDMask, &like, &count);
+    if (!visual) return 11;
+    open_window(s, visual);
+    XFree(visual);
+    s->surface = eglCreateWindowSurface(s->egl, s->config, s->window, 0);
+    s->context = eglCreateContext(s->egl, s->config, EGL_NO_CONTEXT, 0);
+    return eglMakeCurrent(s->egl, s->surface, s->surface, s->context) ? 0 : 12;
+}
+static void swap(Place* s) { eglSwapBuffers(s->egl, s->surface); }
+static void close_gl(Place* s) {
+    eglMakeCurrent(s->egl, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(s->egl, s->context);
+    eglTerminate(s->egl);
+}
+#else
+static int open_gl(Place* s) {
+    int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
+    XVisualInfo* visual = glXChooseVisual(s->display, DefaultScreen(s->display), attributes);
+    if (!visual) return 11;
+    open_window(s, visual);
+    s->context = glXCreateContext(s->display, visual, 0, True);
+    XFree(visual);
+    return s->context && glXMakeCurrent(s->display, s->window, s->context) ? 0 : 12;
+}
+static void swap(Place* s) { glXSwapBuffers(s->display, s->window); }
+static void close_gl(Place* s) {
+    glXMakeCurrent(s->display, None, 0);
+    glXDestroyContext(s->display, s->context);
+}
+#endif
+
+int draw_cubes(int frames, void (*before_frame)(int frame)) {
+    Place screen = {0};
+    screen.display = XOpenDisplay(0);
+    if (!screen.display) return 10;
+    const int failed = open_gl(&screen);
+    if (failed) return failed;
     set_camera();
     for (int frame = 1; frame <= frames; ++frame) {
         if (before_frame) before_frame(frame);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         if (frame > 1) draw_cube();
-        glXSwapBuffers(display, window);
+        swap(&screen);
     }
-    glXMakeCurrent(display, None, 0);
-    glXDestroyContext(display, context);
-    XFree(visual);
-    XCloseDisplay(display);
+    close_gl(&screen);
+    XCloseDisplay(screen.display);
     return 0;
 }

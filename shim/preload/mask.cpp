@@ -1,0 +1,67 @@
+#include "shim/preload/mask.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace glcast::preload {
+namespace {
+
+constexpr std::string_view float_extensions[] = {"GL_ARB_color_buffer_float", "GL_ARB_texture_float",
+                                                 "GL_ATI_texture_float"};
+constexpr std::string_view framebuffer_extensions[] = {
+    "GL_ARB_framebuffer_object", "GL_EXT_framebuffer_object", "GL_EXT_framebuffer_blit"};
+
+/// The functions of a table are plain ones, so what they need stands here.
+struct Masked {
+    GlTable table;
+    decltype(GlTable::GetString) get_string;
+    Mask mask;
+    std::string extensions;
+};
+Masked* masked = nullptr; // made once, never destroyed
+
+bool is_masked(std::string_view name) {
+    const auto among = [&](const auto& list) {
+        for (const std::string_view entry : list)
+            if (entry == name) return true;
+        return false;
+    };
+    return (masked->mask.floats && among(float_extensions)) ||
+           (masked->mask.framebuffers && among(framebuffer_extensions));
+}
+
+const GLubyte* APIENTRY get_string(GLenum name) {
+    const GLubyte* text = masked->get_string(name);
+    if (name != GL_EXTENSIONS || !text) return text;
+    const std::string_view all(reinterpret_cast<const char*>(text));
+    masked->extensions.clear();
+    for (std::size_t at = 0; at < all.size();) {
+        const std::size_t end = std::min(all.find(' ', at), all.size());
+        const std::string_view extension = all.substr(at, end - at);
+        if (!is_masked(extension)) masked->extensions.append(extension) += ' ';
+        at = end + 1;
+    }
+    return reinterpret_cast<const GLubyte*>(masked->extensions.c_str());
+}
+
+GLenum APIENTRY no_status(GLenum) { return 0; }
+void APIENTRY no_names(GLsizei, GLuint*) {}
+void APIENTRY no_binding(GLenum, GLuint) {}
+
+} // namespace
+
+const GlTable& masked_table(const GlTable& real, const Mask& mask) {
+    if (masked || !mask.any()) return masked ? masked->table : real;
+    masked = new Masked{real, real.GetString, mask, {}};
+    GlTable& table = masked->table;
+    table.GetString = get_string;
+    if (!mask.framebuffers) return table;
+    table.GenFramebuffers = table.GenRenderbuffers = no_names;
+    table.BindFramebuffer = table.BindRenderbuffer = no_binding;
+    table.BindFramebufferEXT = table.BindRenderbufferEXT = no_binding;
+    table.CheckFramebufferStatus = no_status;
+    return table;
+}
+
+} // namespace glcast::preload
