@@ -10,6 +10,7 @@ namespace glcast {
 namespace {
 
 constexpr float agreement = 0.3f;        // samples between a vertex and the plane that a pixel saw
+constexpr double reach = 8;              // samples along a ray to a hit that may still agree
 constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a sheet
 constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
@@ -73,7 +74,7 @@ class Opinion {
         pixel.distance = agreement;
         std::uint32_t best = hits.start[p + 1];
         for (std::uint32_t i = hits.start[p]; i < hits.start[p + 1]; ++i) {
-            if (!hits.plane[i]) continue;
+            if (!hits.plane[i] || std::abs(at[axes.depth] - hits.depth[i]) > reach) continue;
             glm::vec3 from_hit;
             from_hit[axes.u] = float(away_u);
             from_hit[axes.v] = float(away_v);

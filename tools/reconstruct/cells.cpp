@@ -37,8 +37,8 @@ void fill(const Volume& volume, int z, Slice& slice) {
 struct Slab {
     std::vector<Cell> cells;
     std::vector<std::uint32_t> row_cells;
-    std::vector<std::size_t> layer_quads;
-    std::uint32_t vertices = 0;
+    std::vector<std::uint32_t> layer_quads; ///< of the slab up to the end of each layer
+    std::uint32_t vertices = 0, quads = 0;
 };
 
 unsigned two_bits(const std::uint64_t* row, int x) {
@@ -65,10 +65,10 @@ int flipped_face(const Rays& rays, int config, int x, int y, int z) {
 
 void add_cell(Slab& slab, const Rays& rays, int config, int x, int y, int z) {
     const int flipped = flipped_face(rays, config, x, y, z);
-    slab.cells.push_back({std::uint16_t(x), std::uint8_t(config), std::uint8_t(flipped), slab.vertices});
+    slab.cells.push_back(
+        {std::uint16_t(x), std::uint8_t(config), std::uint8_t(flipped), slab.vertices, slab.quads});
     slab.vertices += patch_table().count[config][flipped];
-    const int corner = config & 1;
-    for (int axis = 0; axis < 3; ++axis) slab.layer_quads.back() += (config >> (1 << axis) & 1) != corner;
+    for (int axis = 0; axis < 3; ++axis) slab.quads += owns_quad(slab.cells.back(), axis);
 }
 
 void find_row(Slab& slab, const Rays& rays, const Slice& low, const Slice& high, int y, int z) {
@@ -102,8 +102,8 @@ Slab sweep_slab(const Rays& rays, int z0, int z1) {
     fill(rays.volume, z0 - 1, *below);
     for (int z = z0; z < z1; ++z) {
         fill(rays.volume, z, *above);
-        slab.layer_quads.push_back(0);
         for (int y = 0; y <= rays.n; ++y) find_row(slab, rays, *below, *above, y, z);
+        slab.layer_quads.push_back(slab.quads);
         std::swap(below, above);
     }
     return slab;
@@ -120,12 +120,14 @@ CellGrid join(const std::vector<Slab>& slabs, int n) {
     grid.row_start.push_back(0);
     grid.quad_start.push_back(0);
     for (const Slab& slab : slabs) {
+        const std::size_t quads = grid.quad_start.back();
         for (Cell cell : slab.cells) {
             cell.first += grid.vertices;
+            cell.first_quad += std::uint32_t(quads);
             grid.cells.push_back(cell);
         }
         for (std::uint32_t count : slab.row_cells) grid.row_start.push_back(grid.row_start.back() + count);
-        for (std::size_t quads : slab.layer_quads) grid.quad_start.push_back(grid.quad_start.back() + quads);
+        for (std::uint32_t upto : slab.layer_quads) grid.quad_start.push_back(quads + upto);
         grid.vertices += slab.vertices;
     }
     return grid;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <tbb/parallel_for.h>
 
 namespace glcast {
 namespace {
@@ -255,6 +256,24 @@ Crossing find_crossing(const Rays& rays, int axis, const std::array<int, 3>& low
         return {rays.axis[axis].depth[hit], plane_of(rays, axis, e.side(), hit), true};
     const Estimate guess = estimate(e);
     return {float(e.filled[axis]) + float(e.towards) * guess.s, guess.normal, false};
+}
+
+EdgeCrossings::EdgeCrossings(const Rays& rays, const CellGrid& grid)
+    : at(grid.quad_start.back()), normal(at.size()), supported(at.size()) {
+    const auto put = [&](const Cell& cell, int axis, const std::array<int, 3>& low) {
+        const Crossing found = find_crossing(rays, axis, low, cell.config & 1);
+        const std::uint32_t quad = quad_of(cell, axis);
+        at[quad] = found.at;
+        normal[quad] = found.has_plane() ? pack_normal(found.normal) : 0;
+        supported[quad] = found.supported;
+    };
+    tbb::parallel_for(0, grid.n + 1, [&](int z) {
+        for (int y = 0; y <= grid.n; ++y)
+            for (std::size_t c = grid.row_start[grid.row(y, z)]; c < grid.row_start[grid.row(y, z) + 1]; ++c)
+                for (int axis = 0; axis < 3; ++axis)
+                    if (owns_quad(grid.cells[c], axis))
+                        put(grid.cells[c], axis, {grid.cells[c].x - 1, y - 1, z - 1});
+    });
 }
 
 } // namespace glcast

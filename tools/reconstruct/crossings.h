@@ -2,7 +2,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 
-#include "tools/reconstruct/rays.h"
+#include "tools/reconstruct/cells.h"
 
 namespace glcast {
 
@@ -15,5 +15,19 @@ struct Crossing {
 
 /// The crossing of the edge from sample `low` to its next along `axis`, one of which is filled.
 Crossing find_crossing(const Rays& rays, int axis, const std::array<int, 3>& low, bool low_filled);
+
+/// The crossings of all edges that change sign, by the number of their quads, in nine bytes each.
+class EdgeCrossings {
+  public:
+    EdgeCrossings(const Rays& rays, const CellGrid& grid);
+    Crossing operator[](std::size_t quad) const {
+        return {at[quad], normal[quad] ? unpack_normal(normal[quad]) : glm::vec3(0), supported[quad] != 0};
+    }
+
+  private:
+    std::vector<float> at;
+    std::vector<std::uint32_t> normal;
+    std::vector<std::uint8_t> supported;
+};
 
 } // namespace glcast

@@ -16,29 +16,6 @@ namespace {
 constexpr double level = 2e-3;     // samples: both diagonals pass the crossing at the same height
 constexpr double clearance = 4e-4; // samples that a quad must keep from the sides of its envelope
 
-/// The cells of a row from the x asked last on; x never decreases.
-class RowCursor {
-  public:
-    RowCursor(const CellGrid& grid, int y, int z) {
-        if (y < 0 || z < 0) return;
-        at = grid.cells.data() + grid.row_start[grid.row(y, z)];
-        end = grid.cells.data() + grid.row_start[grid.row(y, z) + 1];
-    }
-    void forward(int x) {
-        while (at != end && at->x < x) ++at;
-    }
-    /// x is that of forward() or the next.
-    const Cell& cell(int x) const {
-        const Cell* found = at != end && at->x < x ? at + 1 : at;
-        if (found >= end || found->x != x)
-            throw std::logic_error("a sign-changing edge has no cell beside it");
-        return *found;
-    }
-
-  private:
-    const Cell *at = nullptr, *end = nullptr;
-};
-
 std::uint32_t vertex_of(const Cell& cell, int edge) {
     return cell.first + patch_table().patch[cell.config][cell.flipped][edge];
 }
@@ -125,8 +102,8 @@ int better_diagonal(const Quad& quad, const Crossing& crossing) {
 
 class Layer {
   public:
-    Layer(const Rays& rays, const CellGrid& grid, const std::vector<glm::dvec3>& positions, double rounding)
-        : rays(rays), grid(grid), positions(positions), clear(clearance + 2 * rounding) {}
+    Layer(const EdgeCrossings& crossings, const CellGrid& grid, const std::vector<glm::dvec3>& positions, double rounding)
+        : crossings(crossings), grid(grid), positions(positions), clear(clearance + 2 * rounding) {}
     void run(int z, Triangle* to, std::uint32_t* first_quad) {
         out = to;
         made = std::uint32_t(grid.quad_start[z]);
@@ -149,7 +126,7 @@ class Layer {
             for (RowCursor& row : rows) row.forward(cell.x - 1);
             const int corner = cell.config & 1;
             for (int axis = 0; axis < 3; ++axis)
-                if ((cell.config >> (1 << axis) & 1) != corner) add_quad(rows, cell.x, y, z, axis, corner);
+                if (owns_quad(cell, axis)) add_quad(rows, cell.x, y, z, axis, corner);
         }
     }
 
@@ -166,7 +143,7 @@ class Layer {
             quad.corner[k] = positions[vertex[k]];
             suspect |= patch_table().count[cell.config][cell.flipped] > 1;
         }
-        const Crossing crossing = find_crossing(rays, axis, low, low_filled);
+        const Crossing crossing = crossings[made];
         unsupported += !crossing.supported;
         const int d = better_diagonal(quad, crossing);
         const double outside = quad.stray();
@@ -186,7 +163,7 @@ class Layer {
         if (!crossing.supported) unsupported_area += size;
     }
 
-    const Rays& rays;
+    const EdgeCrossings& crossings;
     const CellGrid& grid;
     const std::vector<glm::dvec3>& positions;
     const double clear;
@@ -196,7 +173,7 @@ class Layer {
 
 } // namespace
 
-std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
+std::vector<Triangle> make_triangles(const EdgeCrossings& crossings, const CellGrid& grid,
                                      const std::vector<glm::dvec3>& positions, double rounding,
                                      QuadReport& report) {
     std::vector<Triangle> triangles(2 * grid.quad_start.back());
@@ -204,7 +181,7 @@ std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
     report.crossings = grid.quad_start.back();
     report.first_quad.resize(grid.row_start.size());
     report.first_quad.back() = std::uint32_t(report.crossings);
-    std::vector<Layer> layers(grid.n + 1, Layer(rays, grid, positions, rounding));
+    std::vector<Layer> layers(grid.n + 1, Layer(crossings, grid, positions, rounding));
     tbb::parallel_for(0, grid.n + 1, [&](int z) {
         layers[z].run(z, triangles.data() + 2 * grid.quad_start[z], &report.first_quad[grid.row(0, z)]);
     });

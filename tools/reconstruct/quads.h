@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/mesh/mesh.h"
-#include "tools/reconstruct/cells.h"
+#include "tools/reconstruct/crossings.h"
 
 namespace glcast {
 
@@ -20,7 +20,7 @@ struct QuadReport {
 
 /// Triangles 2 q and 2 q + 1 are quad q. Counter-clockwise from outside. `positions` in samples; `rounding`:
 /// how far they may be moved afterwards without asking again which quads are suspect.
-std::vector<Triangle> make_triangles(const Rays& rays, const CellGrid& grid,
+std::vector<Triangle> make_triangles(const EdgeCrossings& crossings, const CellGrid& grid,
                                      const std::vector<glm::dvec3>& positions, double rounding,
                                      QuadReport& report);
 

@@ -8,6 +8,7 @@
 #include "tools/reconstruct/attributes.h"
 #include "tools/reconstruct/carve.h"
 #include "tools/reconstruct/cells.h"
+#include "tools/reconstruct/crossings.h"
 #include "tools/reconstruct/exterior.h"
 #include "tools/reconstruct/frame.h"
 #include "tools/reconstruct/manifold.h"
@@ -72,10 +73,11 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     const bool cubes = options.method == SurfaceMethod::cubes;
     for (int a = 0; a < 3; ++a) find_planes(rays.axis[a], Axis(a), rays.n);
     Mesh mesh;
-    mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(rays, grid);
+    const EdgeCrossings crossings(rays, grid);
+    mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(crossings, grid);
     QuadReport quads;
     const CaptureFrame frame(box, rays.n);
-    mesh.triangles = make_triangles(rays, grid, mesh.positions, frame.rounding(), quads);
+    mesh.triangles = make_triangles(crossings, grid, mesh.positions, frame.rounding(), quads);
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();

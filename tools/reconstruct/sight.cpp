@@ -10,10 +10,11 @@
 namespace glcast {
 namespace {
 
-constexpr int most_cells = 256;
+constexpr int most_cells = 128;
 constexpr int directions = 192, directions_a_round = 48;
 constexpr int enough = 10;         // of 192 directions: a cell that sees out in as many is open
 constexpr double opening = 0.05;   // of a chamber's walls: a chamber with less is hidden
+constexpr std::size_t least = 100; // cells: what is smaller may be a crevice that the grid is too coarse for
 
 /// Bits of a cube of cells; row (b, c) holds the cells along a.
 struct BitCube {
@@ -214,7 +215,7 @@ bool judge_chamber(Sight& sight, std::uint32_t seed, std::vector<std::uint8_t>& 
             judged[next] = 1;
             chamber.push_back(next);
         });
-    if (double(openings) < opening * double(walls)) return true;
+    if (chamber.size() >= least && double(openings) < opening * double(walls)) return true;
     // Not before all chambers are judged: an open one must not count as opening of the next.
     for (std::uint32_t cell : chamber) judged[cell] = 2;
     return false;

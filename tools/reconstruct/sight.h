@@ -1,6 +1,6 @@
 // Which free space can be seen from far away: the second half of the exterior rule.
 //
-// On a coarse grid of at most 256 cells an axis, a cell sees out in a direction when a straight line of free
+// On a coarse grid of at most 128 cells an axis, a cell sees out in a direction when a straight line of free
 // cells leads from it out of the box. Cells that see out in few of 192 directions form chambers. A chamber is
 // hidden when its openings, where it borders on cells that see more, are small against its walls: it opens or closes
 // as a whole, so no single beam through a slit carves a crevice, and blind ends of bores stay open.

@@ -46,27 +46,34 @@ void add_crossing(Patch& patch, const Crossing& crossing, int axis, const glm::v
 
 using Patches = std::array<Patch, 4>;
 
-Patches patches_of(const Rays& rays, const Cell& cell, int y, int z) {
+/// crossing_of(axis, corner): of the edge from that corner of the cell.
+template <class CrossingOf> Patches patches_of(const Cell& cell, int y, int z, CrossingOf crossing_of) {
     Patches patches;
     const auto& patch_of = patch_table().patch[cell.config][cell.flipped];
     const std::array<int, 3> origin = cell_sample(cell.x, y, z, 0);
     for (int edge = 0; edge < 12; ++edge) {
         if (patch_of[edge] == 255) continue;
         const int corner = edge_corner(edge), axis = edge_axis(edge);
-        const auto low = cell_sample(cell.x, y, z, corner);
-        const Crossing crossing = find_crossing(rays, axis, low, cell.config >> corner & 1);
-        add_crossing(patches[patch_of[edge]], crossing, axis, {corner & 1, corner >> 1 & 1, corner >> 2},
-                     float(origin[axis]));
+        add_crossing(patches[patch_of[edge]], crossing_of(axis, corner), axis,
+                     {corner & 1, corner >> 1 & 1, corner >> 2}, float(origin[axis]));
     }
     return patches;
 }
 
 glm::dvec3 origin_of(const Cell& cell, int y, int z) { return {cell.x - 1, y - 1, z - 1}; }
 
-void place_cell(const Rays& rays, const Cell& cell, int y, int z, std::vector<glm::dvec3>& positions) {
-    const Patches patches = patches_of(rays, cell, y, z);
-    for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k) {
-        positions[cell.first + k] = glm::dvec3(patches[k].vertex()) + origin_of(cell, y, z);
+/// The cells of a row; `owners` are the rows of the cells that own their edges: bit 0 one on in y, bit 1 in z.
+void place_row(const EdgeCrossings& crossings, const CellGrid& grid, int y, int z,
+               std::vector<glm::dvec3>& positions) {
+    RowCursor owners[4] = {{grid, y, z}, {grid, y + 1, z}, {grid, y, z + 1}, {grid, y + 1, z + 1}};
+    for (std::size_t c = grid.row_start[grid.row(y, z)]; c < grid.row_start[grid.row(y, z) + 1]; ++c) {
+        const Cell& cell = grid.cells[c];
+        for (RowCursor& row : owners) row.forward(cell.x);
+        const Patches patches = patches_of(cell, y, z, [&](int axis, int corner) {
+            return crossings[quad_of(owners[corner >> 1].cell(cell.x + (corner & 1)), axis)];
+        });
+        for (int k = 0; k < patch_table().count[cell.config][cell.flipped]; ++k)
+            positions[cell.first + k] = glm::dvec3(patches[k].vertex()) + origin_of(cell, y, z);
     }
 }
 
@@ -85,9 +92,11 @@ template <class Place> void for_rows(const CellGrid& grid, Place place) {
 
 } // namespace
 
-std::vector<glm::dvec3> contour_vertices(const Rays& rays, const CellGrid& grid) {
+std::vector<glm::dvec3> contour_vertices(const EdgeCrossings& crossings, const CellGrid& grid) {
     std::vector<glm::dvec3> positions(grid.vertices);
-    for_rows(grid, [&](const Cell& cell, int y, int z) { place_cell(rays, cell, y, z, positions); });
+    tbb::parallel_for(0, grid.n + 1, [&](int z) {
+        for (int y = 0; y <= grid.n; ++y) place_row(crossings, grid, y, z, positions);
+    });
     return positions;
 }
 
@@ -112,7 +121,10 @@ PlacedCell find_cell(const CellGrid& grid, std::uint32_t vertex) {
 glm::dvec3 vertex_on_rung(const Rays& rays, const CellGrid& grid, std::uint32_t vertex, int rung) {
     const auto [cell, y, z] = find_cell(grid, vertex);
     const int k = int(vertex - cell.first);
-    const Patch patch = patches_of(rays, cell, y, z)[k];
+    const auto crossing_of = [&, &cell = cell, y = y, z = z](int axis, int corner) {
+        return find_crossing(rays, axis, cell_sample(cell.x, y, z, corner), cell.config >> corner & 1);
+    };
+    const Patch patch = patches_of(cell, y, z, crossing_of)[k];
     const glm::vec3 mean = glm::clamp(patch.quadric.mean(), patch.lo, patch.hi);
     glm::vec3 place = mean;
     if (rung == 0) place = patch.vertex();

@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "tools/reconstruct/cells.h"
+#include "tools/reconstruct/crossings.h"
 
 namespace glcast {
 
@@ -13,7 +13,7 @@ inline std::array<int, 3> cell_sample(int x, int y, int z, int corner) {
 }
 
 /// Sample coordinates, where the crossings' planes meet within the cell.
-std::vector<glm::dvec3> contour_vertices(const Rays& rays, const CellGrid& grid);
+std::vector<glm::dvec3> contour_vertices(const EdgeCrossings& crossings, const CellGrid& grid);
 
 /// Corners of the sub-cubes around the samples: the middles of the cells; where a cell has several patches, a
 /// twentieth of a sample or less off it towards the vertex's own, so that they do not touch.
