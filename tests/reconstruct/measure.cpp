@@ -70,7 +70,7 @@ Distance points_to_mesh(const std::vector<dvec3>& points, const Mesh& mesh, doub
     Distance out;
     for (const dvec3& p : points) {
         double least = 1e300;
-        for (int reach = 1; reach <= 6 && least > cell * (reach - 1); ++reach)
+        for (int reach = 1; reach <= 24 && least > cell * (reach - 1); ++reach)
             for (int z = -reach; z <= reach; ++z)
                 for (int y = -reach; y <= reach; ++y)
                     for (int x = -reach; x <= reach; ++x) {
