@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Run programs of Debian's piglit plain and with libglcast.so casting every frame: each must end the same way.
 
-Usage: transparency.py SHIM RULES [--only REGEX] [--jobs N]
+Usage: transparency.py SHIM RULES [--neutral PRELOAD] [--only REGEX] [--jobs N]
 RULES holds regular expressions over the names of piglit's own profile `quick_gl`, one a line; "!" takes names away, for the
 reason beside it. Of several tests of one program the first is run, of "+" lines all. How they are run is piglit's own rule:
 into a framebuffer object (-fbo) where the profile says that they may run side by side, in a window where it does not.
 
 The same: exit status, and every line of results that the program prints, subtests included. One that differs is run plain
 again and again: it is only let off when it gives without us, too, what it gave with us, or when it never gives a result
-without us (glx-visuals-depth: an X error of Mesa's own ends it). A program that needs more than SLOW_CPU seconds without us
+without us (glx-visuals-depth: an X error of Mesa's own ends it), or when a preload of two lines changes it just so
+(polygon-mode-facing: Mesa falls over in its atexit handlers). A program that needs more than SLOW_CPU seconds without us
 is left out. All these are named. Exit status: 0 all the same, 1 some differ, 2 nothing to run.
 """
 import argparse
@@ -88,9 +89,11 @@ class Server:
 
 
 class Run:
-    def __init__(self, folder, command, display, cpu, shim=None, every=1):
+    def __init__(self, folder, command, display, cpu, shim=None, every=1, neutral=None):
         environment = {k: v for k, v in os.environ.items() if not k.startswith("GLCAST_") and k != "LD_PRELOAD"}
         environment |= {"DISPLAY": display, "PIGLIT_PLATFORM": "glx", "LIBGL_ALWAYS_SOFTWARE": "1", "LP_NUM_THREADS": "1"}
+        if neutral:
+            environment["LD_PRELOAD"] = neutral
         with tempfile.TemporaryDirectory() as scratch:
             if shim:
                 environment |= ARMED | {"GLCAST_EVERY": str(every), "LD_PRELOAD": shim, "GLCAST_OUT": scratch + "/cast.exr"}
@@ -116,8 +119,8 @@ class Run:
         self.result = (self.status, *lines)
 
 
-def judge(folder, command, display, shim):
-    """(verdict, plain, ours). Verdicts: same, flaky, slow, "no result", DIFFERENT."""
+def judge(folder, command, display, shim, neutral):
+    """(verdict, plain, ours). Verdicts: same, flaky, slow, "no result", "any preload", DIFFERENT."""
     plain = Run(folder, command, display, SLOW_CPU)
     if plain.slow:
         return "slow", plain, None
@@ -131,6 +134,8 @@ def judge(folder, command, display, shim):
         return "flaky", plain, ours
     if all(len(result) == 1 for result in [plain.result, *again]):
         return "no result", plain, ours  # it never comes to one without us
+    if neutral and ours.result in [Run(folder, command, display, SHIM_CPU, neutral=neutral).result for _ in range(RETRIES)]:
+        return "any preload", plain, ours
     return "DIFFERENT", plain, ours
 
 
@@ -139,6 +144,7 @@ def main():
     parser.add_argument("shim")
     parser.add_argument("rules")
     parser.add_argument("--only", default="")
+    parser.add_argument("--neutral", help="a preload that only passes two calls through")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--verbose", action="store_true")
     options = parser.parse_args()
@@ -155,7 +161,7 @@ def main():
     def work(test):
         server = servers.get()
         try:
-            return test, judge(folder, test[1], server.display, os.path.abspath(options.shim))
+            return test, judge(folder, test[1], server.display, os.path.abspath(options.shim), options.neutral)
         finally:
             servers.put(server)
 
