@@ -153,6 +153,7 @@ def main():
         print("transparency.py: piglit is not installed (tools/install-packages real)", file=sys.stderr)
         return 2
     tests = [t for t in read_profile(folder, Rules(options.rules)) if re.search(options.only, t[0])]
+    neutral = os.path.abspath(options.neutral) if options.neutral else None
     servers = queue.SimpleQueue()
     running = [Server() for _ in range(options.jobs)]
     for server in running:
@@ -161,7 +162,7 @@ def main():
     def work(test):
         server = servers.get()
         try:
-            return test, judge(folder, test[1], server.display, os.path.abspath(options.shim), options.neutral)
+            return test, judge(folder, test[1], server.display, os.path.abspath(options.shim), neutral)
         finally:
             servers.put(server)
 
