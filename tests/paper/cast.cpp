@@ -58,10 +58,11 @@ Capture capture_mesh(const Mesh& mesh, int n) {
     return capture;
 }
 
-Cast reconstruct_capture(const Capture& capture, SurfaceMethod method) {
+Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, bool geometric_normals) {
     Cast cast;
     ReconstructOptions options;
     options.method = method;
+    options.geometric_normals = geometric_normals;
     const double start = now();
     cast.mesh = reconstruct(capture.images, capture.box, options, &cast.report);
     cast.seconds = now() - start;

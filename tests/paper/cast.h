@@ -24,6 +24,6 @@ struct Cast {
     ReconstructReport report;
     double seconds = 0;
 };
-Cast reconstruct_capture(const Capture& capture, SurfaceMethod method);
+Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, bool geometric_normals = false);
 
 } // namespace glcast::paper
