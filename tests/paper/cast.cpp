@@ -49,19 +49,22 @@ Capture capture_mesh(const Mesh& mesh, int n) {
     const EngineReport report = run_capture(
         context.gl(), [&](const GlTable& gl) { draw(gl, mesh); }, options,
         [&](ViewImage&& image) {
-            if (image.view.layer == 0) capture.images.push_back(std::move(image));
+            capture.images.push_back(std::move(image));
             return true;
         });
     if (!report.ok) throw std::runtime_error("the capture failed: " + report.error);
     capture.box = report.box;
+    capture.complete_layers = report.layers == Layers::complete;
     capture.seconds = now() - start;
     return capture;
 }
 
-Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, bool geometric_normals) {
+Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, Views views, bool geometric_normals) {
     Cast cast;
     ReconstructOptions options;
     options.method = method;
+    options.complete_layers = capture.complete_layers;
+    if (method == SurfaceMethod::cubes || views == Views::six) options.exterior = ExteriorRule::axes;
     options.geometric_normals = geometric_normals;
     const double start = now();
     cast.mesh = reconstruct(capture.images, capture.box, options, &cast.report);

@@ -11,7 +11,8 @@ namespace glcast::paper {
 struct Capture {
     int n = 0;
     Box box;
-    std::vector<ViewImage> images;
+    std::vector<ViewImage> images; ///< all layers
+    bool complete_layers = false;
     double seconds = 0;
 };
 
@@ -24,6 +25,9 @@ struct Cast {
     ReconstructReport report;
     double seconds = 0;
 };
-Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, bool geometric_normals = false);
+/// With all layers where the capture has them, or by the paper's rule of six views, which cubes always go by.
+enum class Views { all_layers, six };
+Cast reconstruct_capture(const Capture& capture, SurfaceMethod method, Views views = Views::all_layers,
+                         bool geometric_normals = false);
 
 } // namespace glcast::paper

@@ -16,7 +16,7 @@ constexpr int tile = 300;
 const glm::dvec3 from_front(0.45, 0.75, -0.5);
 
 Mesh cast_of(const Mesh& drawn, int n, SurfaceMethod method, bool geometric_normals = false) {
-    return reconstruct_capture(capture_mesh(drawn, n), method, geometric_normals).mesh;
+    return reconstruct_capture(capture_mesh(drawn, n), method, Views::all_layers, geometric_normals).mesh;
 }
 
 /// Every triangle with corners and a normal of its own: cubes look like cubes.

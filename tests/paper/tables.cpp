@@ -47,14 +47,14 @@ Row measured(const std::string& name, const Mesh& mesh, double make_seconds, con
 void add_casts(Table& table, const Mesh& drawn, int n, const Original& original,
                const TableOptions& options) {
     const Capture capture = capture_mesh(drawn, n);
-    for (const SurfaceMethod method : {SurfaceMethod::contour, SurfaceMethod::cubes}) {
-        if (method == SurfaceMethod::cubes && !options.cubes) continue;
-        const Cast cast = reconstruct_capture(capture, method);
-        const std::string name =
-            (method == SurfaceMethod::contour ? "contour " : "cubes ") + std::to_string(n);
-        table.rows.push_back(
-            measured(name, cast.mesh, capture.seconds + cast.seconds, original, table.edges, options));
-    }
+    const auto add = [&](const std::string& name, SurfaceMethod method, Views views) {
+        const Cast cast = reconstruct_capture(capture, method, views);
+        table.rows.push_back(measured(name + " " + std::to_string(n), cast.mesh,
+                                      capture.seconds + cast.seconds, original, table.edges, options));
+    };
+    add("contour", SurfaceMethod::contour, Views::all_layers);
+    if (options.six_views) add("contour, six views,", SurfaceMethod::contour, Views::six);
+    if (options.cubes) add("cubes", SurfaceMethod::cubes, Views::six);
 }
 
 Table begin(const Original& original, std::vector<double> edges) {

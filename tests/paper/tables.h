@@ -40,6 +40,7 @@ struct TableOptions {
     Levels levels = Levels::fitted;
     bool symmetric = false; ///< measure both ways too; takes most of the time
     bool cubes = true;
+    bool six_views = true; ///< rows "contour, six views, 160" too: the paper's rule instead of all layers
 };
 
 /// Rows "original", "contour 160", "cubes 160", "contour 40", "cubes 40"; 782, 500, 250, 100 edges.
