@@ -133,7 +133,7 @@ fs::path find_shim() {
     }
     const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
     for (const char* folder :
-         {"", GLCAST_SHIM_FROM_BUILD, GLCAST_SHIM_FROM_INSTALL, "../lib", "../lib/glcast"}) {
+         {"", GLCAST_SHIM_FROM_BUILD, GLCAST_SHIM_FROM_INSTALL, "../lib/glcast"}) {
         const fs::path candidate = (here / folder / "libglcast.so").lexically_normal();
         if (fs::is_regular_file(candidate, ignored)) {
             return candidate;
