@@ -18,6 +18,7 @@ MACROS = {
     "Flush": "GLCAST_FRAME_END_STUB",  # these two show what was drawn to a front buffer
     "Finish": "GLCAST_FRAME_END_STUB",
     "ReadPixels": "GLCAST_READ_STUB",
+    "DrawBuffer": "GLCAST_DRAW_BUFFER_STUB",
 }
 
 

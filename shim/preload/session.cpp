@@ -13,6 +13,7 @@
 
 #include "shim/preload/cast.h"
 #include "shim/preload/census.h"
+#include "shim/preload/front_buffer.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
@@ -285,6 +286,7 @@ bool is_destroyed(Session& s, const NativeContext& context) {
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
+    forget_front();
     s.triggers.look_for_signals();
     update_unwanted(s);
     const FrameKey window(context, drawable);
@@ -326,13 +328,6 @@ void end_late_part(Session& s, NativeContext& context) {
     }
     if (!parts.empty()) cast_parts(s, parts, window, number);
     start_recording(s, context, thread_state.drawable);
-}
-
-bool draws_to_front() {
-    GLint buffer = GL_BACK;
-    real_table().GetIntegerv(GL_DRAW_BUFFER, &buffer);
-    return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_FRONT_RIGHT ||
-           buffer == GL_FRONT_AND_BACK;
 }
 
 bool always() { return true; }
@@ -458,6 +453,7 @@ void made_current(const Binding& binding) noexcept {
                 if (before != now) forget_if_unused(s, before);
             }
         }
+        if (now != before || binding.draw != thread_state.drawable) forget_front();
         thread_state = {now, binding.draw, true};
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
         if (!now) return;

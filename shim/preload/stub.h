@@ -32,6 +32,9 @@ const GlTable& recording_table();
 /// Before a real glReadPixels: ends a frame where GLCAST_READ_ENDS says so.
 void about_to_read() noexcept;
 
+/// Before glDrawBuffer: the front buffer may be chosen for a while only, and flushed later.
+void draw_buffer_chosen(GLenum buffer) noexcept;
+
 /// After a real glFlush or glFinish: the end of a frame for who draws to the front buffer.
 void flushed() noexcept;
 
@@ -61,6 +64,15 @@ void flushed() noexcept;
     extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                   \
     extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS {                                      \
         glcast::preload::about_to_read();                                                                    \
+        const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
+        (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME ARGUMENTS;                 \
+    }                                                                                                        \
+    GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
+
+#define GLCAST_DRAW_BUFFER_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                         \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                   \
+    extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS {                                      \
+        glcast::preload::draw_buffer_chosen ARGUMENTS;                                                       \
         const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
         (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME ARGUMENTS;                 \
     }                                                                                                        \

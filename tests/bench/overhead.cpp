@@ -4,8 +4,10 @@
 //
 // ROUNDS 0: only the memory that a display list of a million vertices takes.
 //
-//     overhead [ROUNDS] [--glxgears]     --glxgears: also frames a second of glxgears, plain and with idle
-//     glcast
+//     overhead [ROUNDS] [--glxgears] [--capture]
+//
+// --glxgears: also frames a second of glxgears, plain and with idle glcast.
+// --capture: also a capture of glxgears (n = 512) against its own frame in a window of 512 x 512.
 #include <unistd.h>
 
 #include <algorithm>
@@ -99,6 +101,46 @@ void measure_glxgears(const Xvfb& server, const TemporaryFolder& folder, int rou
         std::printf("glxgears, %-30s %10.1f frames a second\n", kind.name, median(kind.results));
 }
 
+double number_in(const std::string& text, const char* pattern) {
+    std::smatch match;
+    return std::regex_search(text, match, std::regex(pattern)) ? std::strtod(match[1].str().c_str(), nullptr)
+                                                               : 0;
+}
+
+/// Both at 512 x 512 pixels. The capture's draws and seconds are those that the shim tells: all passes with
+/// their reading, compression and writing, but not the search for the box.
+void measure_capture(const Xvfb& server, const TemporaryFolder& folder, int rounds) {
+    const std::vector<std::string> program = {"glxgears", "-geometry", "512x512+0+0"};
+    const Kind plain{"plain", {}, {}};
+    std::vector<double> frames;
+    for (int round = 0; round < rounds; ++round) {
+        const double fps = number_in(run_kind(plain, server, program, 11).out, "= ([0-9.]+) FPS");
+        if (fps > 0) frames.push_back(1 / fps);
+    }
+    std::printf("own frame, 512 x 512 pixels: median %.2f ms, %zu rounds\n", 1e3 * median(frames),
+                frames.size());
+    for (const char* layers : {"1", "auto"}) {
+        const Kind kind{"capture",
+                        {},
+                        {{"LD_PRELOAD", GLCAST_SHIM},
+                         {"GLCAST_OUT", folder / "gears.exr"},
+                         {"GLCAST_N", "512"},
+                         {"GLCAST_LAYERS", layers},
+                         {"GLCAST_FRAME", "10"},
+                         {"GLCAST_QUIT", "1"}}};
+        std::vector<double> seconds;
+        double draws = 0;
+        for (int round = 0; round < rounds; ++round) {
+            const std::string said = run_kind(kind, server, program, 60).err;
+            draws = number_in(said, " ([0-9]+) draws,");
+            if (draws > 0) seconds.push_back(number_in(said, "draws, ([0-9.]+) s"));
+        }
+        const double least = seconds.empty() ? 0 : *std::min_element(seconds.begin(), seconds.end());
+        std::printf("capture, layers %-5s %3.0f draws, median %.2f s, least %.2f s\n", layers, draws,
+                    median(seconds), least);
+    }
+}
+
 /// What is shadowed always, even by an idle glcast: display lists.
 void measure_list_memory(const Xvfb& server, const TemporaryFolder& folder) {
     const std::vector<Kind> kinds = make_kinds(folder);
@@ -113,10 +155,12 @@ void measure_list_memory(const Xvfb& server, const TemporaryFolder& folder) {
 
 int main(int argc, char** argv) {
     int rounds = 5;
-    bool gears = false;
+    bool gears = false, capture = false;
     for (int i = 1; i < argc; ++i)
         if (std::strcmp(argv[i], "--glxgears") == 0)
             gears = true;
+        else if (std::strcmp(argv[i], "--capture") == 0)
+            capture = true;
         else
             rounds = std::max(0, std::atoi(argv[i]));
     const Xvfb server;
@@ -124,4 +168,5 @@ int main(int argc, char** argv) {
     measure_list_memory(server, folder);
     if (rounds > 0) measure_calls(server, folder, rounds);
     if (gears) measure_glxgears(server, folder, rounds);
+    if (capture) measure_capture(server, folder, std::max(1, rounds));
 }

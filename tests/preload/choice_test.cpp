@@ -1,4 +1,5 @@
-// Which draws of which frame are cast, in frames as toolkits, CAD programs and games make them (programs/scenes.c).
+// Which draws of which frame are cast, in frames as toolkits, CAD programs and games make them
+// (programs/scenes.c).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +77,8 @@ TEST(Choice, can_be_overruled_by_number) {
     const SceneRun listed = cast("cad", {{"GLCAST_LIST", "1"}});
     int ball = 0, number = 0;
     for (const std::string& line : glcast_lines(listed.outcome))
-        if (line.starts_with("group ") && ++number && line.find("an inset") != std::string::npos) ball = number;
+        if (line.starts_with("group ") && ++number && line.find("an inset") != std::string::npos)
+            ball = number;
     const SceneRun run = cast("cad", {{"GLCAST_GROUP", std::to_string(ball)}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(extent(*run.capture), 4, 0.05);
@@ -103,7 +105,8 @@ TEST_P(WholeFrames, hold_the_whole_body) {
     EXPECT_NEAR(covered * square * square, 4, 0.3);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, WholeFrames,
-                         testing::Values("composite", "composite_of_thread", "interrupted", "picking", "sky"),
+                         testing::Values("composite", "composite_of_thread", "interrupted", "picking", "sky",
+                                         "front", "after_front"),
                          [](const auto& info) { return info.param; });
 
 TEST(Frames, that_only_show_a_texture_again_do_not_count) {
@@ -154,7 +157,8 @@ TEST(Points, are_cast_when_asked_for) {
             for (int i = 0; i < n; ++i) {
                 const std::size_t at = std::size_t(j) * n + i;
                 if (!image.covered(at)) continue;
-                const auto p = lattice_point(run.capture->info.box, n, image.view.axis, i, j, image.depth[at]);
+                const auto p =
+                    lattice_point(run.capture->info.box, n, image.view.axis, i, j, image.depth[at]);
                 EXPECT_NEAR(glm::length(p - centre), 1, 2.0 * run.capture->info.box.size / n);
             }
     const SceneRun without = cast("cloud");

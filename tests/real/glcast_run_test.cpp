@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "tests/real/command.h"
 
@@ -22,7 +23,7 @@ using testing::StartsWith;
 class GlcastRun : public testing::Test {
   protected:
     GlcastRun() {
-        fs::create_directories(folder / "tmp");
+        fs::create_directory(folder / "tmp");
         // A duration that no other process has: whatever still sleeps for it afterwards was left behind.
         nap = "9" + std::to_string(getpid()) + "." + std::to_string(++count);
     }
@@ -72,9 +73,16 @@ class GlcastRun : public testing::Test {
 
     std::string capture() const { return folder / "a.exr"; }
 
-    fs::path folder = fs::temp_directory_path() / ("glcast-run-test-" + std::to_string(getpid()));
+    const fs::path folder = make_folder();
     std::string nap;
     static inline int count = 0;
+
+  private:
+    /// Not named by our process id: ids come again, and a test that was killed has left its folder.
+    static fs::path make_folder() {
+        std::string pattern = fs::temp_directory_path() / "glcast-run-test-XXXXXX";
+        return mkdtemp(pattern.data()) ? pattern : throw std::runtime_error("cannot make " + pattern);
+    }
 };
 
 TEST_F(GlcastRun, RefusesWrongUsage) {

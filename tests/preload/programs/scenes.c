@@ -203,6 +203,34 @@ static void picking(void) {
     draw_chiral();
 }
 
+/* As Open Inventor's ivview: an empty swap, then to the front buffer, which is flushed when the back is chosen again. */
+static void front(void) {
+    glClear(GL_COLOR_BUFFER_BIT);
+    glXSwapBuffers(display, window);
+    glDrawBuffer(GL_FRONT);
+    clear();
+    camera(1);
+    lit(1);
+    draw_chiral();
+    glDrawBuffer(GL_BACK);
+    glFlush();
+}
+
+/* The front buffer was drawn to before the last swap: a flush in the middle of this frame ends nothing. */
+static void after_front(void) {
+    glDrawBuffer(GL_FRONT);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDrawBuffer(GL_BACK);
+    glXSwapBuffers(display, window);
+    clear();
+    camera(1);
+    lit(1);
+    for (int i = 0; i < 3; ++i) {
+        draw_box(chiral_boxes[i][0], chiral_boxes[i][1]);
+        glFlush();
+    }
+}
+
 static void sky(void) {
     const float lo[3] = {-15, -15, -15}, hi[3] = {15, 15, 15};
     clear();
@@ -298,11 +326,13 @@ int main(int argc, char** argv) {
     if (IS("composite_of_thread")) return composite_of_thread(), 0;
     glXMakeCurrent(display, window, context);
     if (IS("keys")) return keys(), 0;
+    if (IS("front")) return front(), 0;
     if (IS("signals")) signal(SIGUSR1, handle);
     for (int frame = 1; frame <= frames; ++frame) {
         if (IS("cad")) cad();
         if (IS("interrupted")) interrupted();
         if (IS("picking")) picking();
+        if (IS("after_front")) after_front();
         if (IS("sky") || IS("signals")) sky();
         if (IS("glass")) glass();
         if (IS("wires")) wires();
