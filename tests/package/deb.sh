@@ -27,7 +27,8 @@ as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(fakeroot)
 "${as_root[@]}" dpkg --root="$root" --force-not-root --no-triggers -i "$runtime" "$development" >"$work/log" 2>&1 ||
     { grep -v 'list file for package' "$work/log"; fail "dpkg -i failed"; }
-for name in bin/glcast bin/glcast-run share/doc/glcast/copyright share/doc/glcast/changelog.gz; do
+for name in bin/glcast bin/glcast-run share/man/man1/glcast-mesh.1.gz share/man/man1/glcast-run.1.gz \
+    share/bash-completion/completions/glcast share/doc/glcast/copyright share/doc/glcast/changelog.gz; do
     [ -f "$root/usr/$name" ] || fail "no /usr/$name"
 done
 
