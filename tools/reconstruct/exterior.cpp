@@ -65,18 +65,19 @@ class Hiding {
         const int most = 4 * sight.scale;
         const auto from_hidden = flood(rays, first, 1, most, [&](auto& s, SampleId) { return undecided(s); });
         std::vector<SampleId> rim;
-        for (const auto& [id, level] : from_hidden)
+        from_hidden.for_each([&](SampleId id, int) {
             for_steps(rays, sample_of(id, n), [&](const std::array<int, 3>& s) {
                 if (space.has(s) && !hidden_cell(s) && !from_hidden.contains(id_of(s, n))) rim.push_back(id);
             });
+        });
         std::sort(rim.begin(), rim.end());
         rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
         const auto from_open =
             flood(rays, rim, 1, most, [&](auto&, SampleId id) { return from_hidden.contains(id); });
-        for (const auto& [id, level] : from_hidden) {
-            const auto open = from_open.find(id);
-            if (open == from_open.end() || level <= open->second) besides.push_back(id);
-        }
+        from_hidden.for_each([&](SampleId id, int level) {
+            const int open = from_open.at(id);
+            if (open == SampleLevels::none || level <= open) besides.push_back(id);
+        });
         std::sort(besides.begin(), besides.end());
     }
     void clear_hidden(int y, int z, Word* bits) const {
@@ -104,13 +105,15 @@ std::vector<SampleId> shallow_places(const Rays& rays, const SliceHits& along_z,
     const auto narrow = [&](const std::array<int, 3>& s, SampleId) { return !outside.has(s); };
     const auto level = flood(rays, beside(rays, along_z, outside), 2, most + 1, narrow);
     std::vector<SampleId> deep;
-    for (const auto& [id, steps] : level)
+    level.for_each([&](SampleId id, int steps) {
         if (steps > most) deep.push_back(id);
+    });
     const auto closed =
         flood(rays, deep, 0, most, [&](const auto&, SampleId id) { return level.contains(id); });
     std::vector<SampleId> out;
-    for (const auto& [id, steps] : level)
+    level.for_each([&](SampleId id, int) {
         if (!closed.contains(id)) out.push_back(id);
+    });
     return out;
 }
 

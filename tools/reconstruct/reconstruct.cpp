@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -67,18 +68,21 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     rays.axis = hits.finish();
     rays.half_thickness = float(options.sheet_thickness / 2);
     carve(rays, options, made);
-    const CellGrid grid = find_cells(rays);
+    CellGrid grid = find_cells(rays);
     made.carve_seconds = watch.lap();
 
     const bool cubes = options.method == SurfaceMethod::cubes;
     for (int a = 0; a < 3; ++a) find_planes(rays.axis[a], Axis(a), rays.n);
     Mesh mesh;
-    const EdgeCrossings crossings(rays, grid);
-    mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(crossings, grid);
+    auto crossings = std::make_unique<const EdgeCrossings>(rays, grid);
+    mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(*crossings, grid);
     QuadReport quads;
     const CaptureFrame frame(box, rays.n);
-    mesh.triangles = make_triangles(crossings, grid, mesh.positions, frame.rounding(), quads);
+    mesh.triangles = make_triangles(*crossings, grid, mesh.positions, frame.rounding(), quads);
+    crossings.reset();
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
+    grid = {}; // what is done with goes, for large lattices fill the memory
+    rays.volume = {};
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int most_cells = 128;
 constexpr int directions = 192, directions_a_round = 48;
 constexpr int enough = 10;         // of 192 directions: a cell that sees out in as many is open
-constexpr double opening = 0.05;   // of a chamber's walls: a chamber with less is hidden
+constexpr double opening = 0.01;   // of a chamber's walls: a chamber with less is hidden
 constexpr std::size_t least = 100; // cells: what is smaller may be a crevice that the grid is too coarse for
 
 /// Bits of a cube of cells; row (b, c) holds the cells along a.
@@ -202,20 +202,31 @@ template <class Visit> void for_neighbours(const Sight& sight, std::uint32_t cel
     }
 }
 
+/// What a cell adds to the openings and walls of its chamber, in faces. Cells beside a wall are not free as a whole, so an
+/// opening looks narrower than it is, by about a cell and a half on each side.
+struct Faces {
+    int open = 0, walls = 0;
+    double opening() const { return open ? open + 1.5 * walls : 0; }
+};
+
 /// The dim cells connected with `seed`; they stay hidden when their openings are small.
 bool judge_chamber(Sight& sight, std::uint32_t seed, std::vector<std::uint8_t>& judged) {
     std::vector<std::uint32_t> chamber{seed};
     judged[seed] = 1;
-    std::size_t openings = 0, walls = 0;
-    for (std::size_t i = 0; i < chamber.size(); ++i)
+    double openings = 0, walls = 0;
+    for (std::size_t i = 0; i < chamber.size(); ++i) {
+        Faces faces;
         for_neighbours(sight, chamber[i], [&](std::uint32_t next, Sight::Cell state) {
-            openings += state == Sight::open;
-            walls += state == Sight::not_free;
+            faces.open += state == Sight::open;
+            faces.walls += state == Sight::not_free;
             if (state != Sight::hidden || judged[next]) return;
             judged[next] = 1;
             chamber.push_back(next);
         });
-    if (chamber.size() >= least && double(openings) < opening * double(walls)) return true;
+        openings += faces.opening();
+        walls += faces.walls;
+    }
+    if (chamber.size() >= least && openings < opening * walls) return true;
     // Not before all chambers are judged: an open one must not count as opening of the next.
     for (std::uint32_t cell : chamber) judged[cell] = 2;
     return false;
