@@ -66,15 +66,18 @@ struct Measured {
     double over_images = 0, in_all = 0, mesh = 0;                      ///< megabytes
 };
 
-Measured measure(const std::vector<ViewImage>& images, int n, SurfaceMethod method, int times) {
+/// The images as the reader hands them on: sparse, all layers. They are used up when there is one time.
+Measured measure(HitBuilder& images, int n, SurfaceMethod method, int times) {
     Measured best{n, 0, 0, 0, 0, 1e9, 0, 0, 0, 0};
     for (int k = 0; k < times; ++k) {
+        HitBuilder hits = times > 1 ? images : std::move(images);
         forget_peak();
         const double before = resident("VmRSS:"), start = now(), cpu = test::cpu_seconds();
         ReconstructReport report;
         ReconstructOptions options;
         options.method = method;
-        const Mesh mesh = reconstruct(images, box, options, &report);
+        options.complete_layers = true;
+        const Mesh mesh = reconstruct(std::move(hits), box, options, &report);
         const double whole = now() - start;
         if (whole > best.whole) continue;
         const double bytes =
@@ -153,11 +156,18 @@ int run(const std::vector<int>& sizes, const std::string& body_name, bool peers)
         body_name.c_str());
     std::vector<Measured> all;
     for (const int n : sizes) {
-        const std::vector<ViewImage> images = test::cast_body(*body, box, n);
-        all.push_back(measure(images, n, SurfaceMethod::contour, n <= 512 ? 3 : 1));
+        std::vector<ViewImage> images = test::cast_layers(*body, box, n);
+        HitBuilder hits;
+        for (ViewImage& image : images) {
+            hits.add(image);
+            if (n > 512) image = {};
+        }
+        all.push_back(measure(hits, n, SurfaceMethod::contour, n <= 512 ? 3 : 1));
         print("contour", all.back());
-        if (n <= 512) print("cubes", measure(images, n, SurfaceMethod::cubes, 1));
-        if (peers && n <= 512) run_peers(images, n);
+        if (n > 512) continue;
+        print("cubes", measure(hits, n, SurfaceMethod::cubes, 1));
+        std::erase_if(images, [](const ViewImage& image) { return image.view.layer > 0; });
+        if (peers) run_peers(images, n);
     }
     std::printf(
         "\nExponent of growth from n = 512 on: carve %.2f, contour %.2f, attributes %.2f, whole %.2f\n",
