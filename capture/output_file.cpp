@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <mutex>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,11 +27,19 @@ std::string temporary_name(const std::string& path) {
            ".tmp";
 }
 
+// Plain data: the preloaded library has no static constructors.
+constinit std::mutex commits; ///< held while files change their names, and for `first_open`
+constinit OutputFile* first_open = nullptr;
+
 std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 } // namespace
 
 OutputFile::OutputFile(std::string target) : path(std::move(target)) {
+    const std::lock_guard lock(commits);
+    next = first_open;
+    if (next) next->previous = this;
+    first_open = this;
     struct stat info;
     if (path.empty() || path.back() == '/')
         message = "cannot write '" + path + "': not a file name";
@@ -41,6 +50,9 @@ OutputFile::OutputFile(std::string target) : path(std::move(target)) {
 }
 
 OutputFile::~OutputFile() {
+    const std::lock_guard lock(commits);
+    (previous ? previous->next : first_open) = next;
+    if (next) next->previous = previous;
     if (descriptor >= 0) close(descriptor);
     if (!temporary.empty()) unlink(temporary.c_str());
 }
@@ -112,6 +124,24 @@ bool OutputFile::name_unnamed() {
 }
 
 bool OutputFile::commit() {
+    const std::lock_guard lock(commits);
+    return put_in_place();
+}
+
+OutputFile* OutputFile::commit_all(std::span<OutputFile* const> files) {
+    const std::lock_guard lock(commits);
+    for (OutputFile* file : files)
+        if (!file->put_in_place()) return file;
+    return nullptr;
+}
+
+void discard_unfinished_files() {
+    commits.lock(); // for good
+    for (const OutputFile* file = first_open; file; file = file->next)
+        if (!file->temporary.empty()) unlink(file->temporary.c_str());
+}
+
+bool OutputFile::put_in_place() {
     if (!message.empty()) return false;
     if (descriptor < 0) return fail("cannot write", EBADF);
     if (temporary.empty() && !name_unnamed()) return false;

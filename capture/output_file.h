@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace glcast {
@@ -23,11 +24,15 @@ class OutputFile {
     /// Leave a gap: the next append() goes to `offset`.
     bool skip_to(std::uint64_t offset);
     bool commit();
+    /// All or, on an interrupt before it, none. The first that failed; null when all are in place.
+    static OutputFile* commit_all(std::span<OutputFile* const> files);
 
     std::uint64_t position() const { return end; }
     const std::string& error() const { return message; }
 
   private:
+    friend void discard_unfinished_files();
+    bool put_in_place();
     bool open_temporary();
     bool name_unnamed();
     bool fail(const char* what, int code);
@@ -36,7 +41,12 @@ class OutputFile {
     std::string message;
     std::uint64_t end = 0;
     int descriptor = -1;
+    OutputFile *next = nullptr, *previous = nullptr; ///< all that are open, for discard_unfinished_files
 };
+
+/// For a program that ends by a signal: waits for commits under way, removes every other temporary, and lets no commit happen
+/// afterwards (it would wait for ever, so call _exit next). From a thread, not from a signal handler.
+void discard_unfinished_files();
 
 /// Can a file be made at `path`? Empty when yes, else why not, one line. Leaves nothing behind.
 std::string why_not_writable(const std::string& path);

@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 DESCRIPTION_COLUMN = 30  # CLI11's
 
 EXIT_STATUS = {
-    "glcast": [("0", "done"), ("1", "not done; one line on standard error says why, and nothing was written"), ("2", "wrong usage")],
+    "glcast": [("0", "done"), ("1", "not done; one line on standard error says why, and nothing was written"), ("2", "wrong usage"),
+               ("130", "ended by Ctrl-C (143: SIGTERM, 129: SIGHUP); nothing is left half written")],
     "glcast-run": [("0", "captured"), ("1", "not captured; one line on standard error says why"), ("2", "wrong usage")],
 }
 EXAMPLES = {

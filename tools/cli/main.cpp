@@ -3,6 +3,7 @@
 #include <new>
 
 #include "tools/cli/command.h"
+#include "tools/cli/interrupt.h"
 
 namespace {
 
@@ -67,5 +68,6 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return explain(app, error);
     }
+    end_cleanly_on_signals();
     return run(chosen);
 }

@@ -155,7 +155,9 @@ std::vector<std::filesystem::path> write_levels(const std::filesystem::path& pat
         OutputFile& file = files.emplace_back(names.emplace_back(level_path(path, k)).string());
         require(f.many_levels ? format::write_glb(file, levels) : f.write(file, levels[k].mesh), file);
     }
-    for (OutputFile& file : files) require(file.commit(), file);
+    std::vector<OutputFile*> all;
+    for (OutputFile& file : files) all.push_back(&file);
+    if (const OutputFile* failed = OutputFile::commit_all(all)) require(false, *failed);
     return names;
 }
 
