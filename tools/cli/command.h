@@ -20,6 +20,11 @@ Run declare_mesh(CLI::App& app);
 Run declare_info(CLI::App& app);
 Run declare_compare(CLI::App& app);
 Run declare_render(CLI::App& app);
+Run declare_view(CLI::App& app);
+
+/// What `glcast mesh` makes of a capture when it is told nothing more: the full surface, then 1/10 and 1/100 of it,
+/// each closed, each measured. Throws std::runtime_error as it does.
+std::vector<Level> mesh_capture(const std::string& capture);
 
 /// A line to stderr: "glcast: ...".
 void say(const std::string& line);

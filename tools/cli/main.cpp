@@ -20,6 +20,7 @@ constexpr Command commands[] = {
     {"info", "say what is in a capture or a mesh, checked", declare_info},
     {"compare", "measure how far two meshes are apart", declare_compare},
     {"render", "draw a mesh: six sides and two corners, a row per level", declare_render},
+    {"view", "make a page to turn the cast in a browser, its levels and errors beside the captured views", declare_view},
 };
 
 constexpr int failed = 1, usage = 2;

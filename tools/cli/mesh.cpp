@@ -257,6 +257,17 @@ int make_mesh(const Options& options) {
 
 } // namespace
 
+std::vector<Level> mesh_capture(const std::string& capture) {
+    Options options;
+    options.capture = capture;
+    options.output = ".glb"; // for its levels; nothing is written
+    Made made;
+    make_surface(options, made);
+    make_levels(options, made);
+    measure_levels(made);
+    return std::move(made.levels);
+}
+
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.footer(

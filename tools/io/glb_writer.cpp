@@ -158,7 +158,7 @@ void GlbBuilder::add_scene(std::span<const Level> levels) {
 
 } // namespace
 
-bool write_glb(OutputFile& file, std::span<const Level> levels) {
+std::string glb_bytes(std::span<const Level> levels) {
     // Positions are floats: far from the origin they are kept relative to a whole-numbered point near the
     // mesh.
     const bool far = needs_doubles(levels[0].mesh);
@@ -169,7 +169,11 @@ bool write_glb(OutputFile& file, std::span<const Level> levels) {
     std::ostringstream stream;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, stream, false, true))
         refuse("tinygltf cannot write it");
-    const std::string bytes = std::move(stream).str();
+    return std::move(stream).str();
+}
+
+bool write_glb(OutputFile& file, std::span<const Level> levels) {
+    const std::string bytes = glb_bytes(levels);
     return file.append(bytes.data(), bytes.size());
 }
 

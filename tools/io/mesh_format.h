@@ -19,6 +19,7 @@ std::vector<Level> read_off(std::string_view bytes);
 std::vector<Level> read_stl(std::string_view bytes);
 
 // Writers append to the file; false when it cannot take it (its error() says why).
+std::string glb_bytes(std::span<const Level> levels); ///< the whole file
 bool write_glb(OutputFile& file, std::span<const Level> levels);
 bool write_obj(OutputFile& file, const Mesh& mesh);
 bool write_ply(OutputFile& file, const Mesh& mesh);

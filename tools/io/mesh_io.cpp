@@ -141,6 +141,8 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
 
 Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels(path).front().mesh); }
 
+std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}).size(); }
+
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
                                                 std::span<const Level> levels) {
     const Format& f = format_of(path);

@@ -1,5 +1,6 @@
 // Reading and writing meshes: .glb (tinygltf), .obj, .ply, .off; .stl is read only.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -17,5 +18,8 @@ Mesh read_mesh(const std::filesystem::path& path); ///< level 0
 /// temporary names and renamed. Throws std::runtime_error. Returns the files written.
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
                                                 std::span<const Level> levels);
+
+/// Bytes of the level as a .glb of its own. Throws as write_levels does.
+std::uint64_t glb_size(const Level& level);
 
 } // namespace glcast

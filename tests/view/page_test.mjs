@@ -1,0 +1,169 @@
+// node page_test.mjs CHROMIUM PAGE.html
+// The page of view_test.cpp in a browser: by clicking, by keys, by touch, and by looking at pixels. Ends with 1 when anything
+// is not as it should be.
+import assert from 'node:assert/strict';
+import { writeFile } from 'node:fs/promises';
+import { pathToFileURL } from 'node:url';
+import { Chromium, softwareGl } from './chromium.mjs';
+import { decode } from './png.mjs';
+
+const [program, page] = process.argv.slice(2);
+const url = pathToFileURL(page).href;
+const red = [230, 26, 26], blue = [26, 26, 230], background = [238, 241, 243];
+
+function near(pixel, wanted, within, what) {
+  const off = Math.max(...wanted.map((value, k) => Math.abs(value - pixel[k])));
+  assert.ok(off <= within, `${what}: ${pixel} instead of ${wanted}`);
+}
+
+async function stageOf(tab) {
+  const { x, y, width, height } = await tab.rectangle('#canvas');
+  return { x, y, width, height, cx: Math.round(x + width / 2), cy: Math.round(y + height / 2) };
+}
+
+/** Pixels of the canvas that meet a condition. */
+function count(picture, stage, condition) {
+  let found = 0;
+  for (let y = 60; y < stage.height - 60; ++y)
+    for (let x = 0; x < stage.width; ++x) if (condition(picture.at(Math.round(stage.x) + x, Math.round(stage.y) + y))) ++found;
+  return found;
+}
+
+const isModel = (p) => Math.abs(p[0] - background[0]) + Math.abs(p[1] - background[1]) + Math.abs(p[2] - background[2]) > 30;
+const isDark = (p) => p[0] < 60 && p[1] < 60 && p[2] < 70;
+
+const steps = {
+  async 'shows the surface in its colours'(tab, stage) {
+    const picture = await tab.picture();
+    const model = count(picture, stage, isModel);
+    assert.ok(model > 0.1 * stage.width * stage.height, `${model} pixels of the model`);
+    near(picture.at(Math.round(stage.x) + 5, stage.cy), background, 2, 'beside the model');
+    assert.equal(await tab.evaluate('document.querySelectorAll("#levels tbody tr").length'), 3);
+    assert.equal(await tab.evaluate('document.getElementById("level").max'), '1', 'one level is left out');
+    assert.match(await tab.evaluate('document.getElementById("note").textContent'), /left out of this page/);
+    assert.equal(await tab.evaluate('document.querySelectorAll("#title *").length'), 0, 'a file name is no HTML');
+    assert.match(await tab.evaluate('document.title'), /^s<i>&\.glb/);
+  },
+  async 'captured views turn the cast'(tab, stage) {
+    assert.equal(await tab.evaluate('document.querySelectorAll("#views img").length'), 6);
+    await tab.click('#view-2');
+    near((await tab.picture()).at(stage.cx, stage.cy), red, 8, 'from +x');
+    await tab.click('#view-1');
+    near((await tab.picture()).at(stage.cx, stage.cy), blue, 8, 'from -x');
+    await tab.click('#view-6');
+    const picture = await tab.picture();
+    near(picture.at(stage.cx + 40, stage.cy), red, 12, 'from +z, right');
+    near(picture.at(stage.cx - 40, stage.cy), blue, 12, 'from +z, left');
+  },
+  async 'captured views are the right way round'(tab) {
+    // The capture's +z view has red growing with x and green with y; its -z view is seen from behind.
+    for (const [view, sign] of [['#view-6', 1], ['#view-5', -1]]) {
+      const source = await tab.evaluate(`document.querySelector('${view} img').src`);
+      const image = decode(Buffer.from(source.split(',')[1], 'base64'));
+      const [left, right] = [image.at(image.width >> 2, image.height >> 1), image.at(image.width * 3 >> 2, image.height >> 1)];
+      const [top, bottom] = [image.at(image.width >> 1, image.height >> 2), image.at(image.width >> 1, image.height * 3 >> 2)];
+      assert.ok((right[0] - left[0]) * sign > 10, `${view} left to right: ${left} ${right}`);
+      assert.ok(top[1] - bottom[1] > 10, `${view} top to bottom: ${top} ${bottom}`);
+      assert.equal(image.at(0, 0)[3], 0, 'nothing in the corner');
+    }
+  },
+  async 'turns by mouse'(tab, stage) {
+    await tab.click('#view-2');
+    await tab.drag(stage.cx - 235, stage.cy, stage.cx + 236, stage.cy);
+    near((await tab.picture()).at(stage.cx, stage.cy), blue, 8, 'half round by mouse');
+  },
+  async 'turns by keys'(tab, stage) {
+    for (let k = 0; k < 12; ++k) await tab.key('ArrowRight');
+    near((await tab.picture()).at(stage.cx, stage.cy), red, 8, 'half round by keys');
+  },
+  async 'turns by touch'(tab, stage) {
+    await tab.touchDrag(stage.cx - 235, stage.cy, stage.cx + 236, stage.cy);
+    near((await tab.picture()).at(stage.cx, stage.cy), blue, 8, 'half round by touch');
+  },
+  async 'zooms'(tab, stage) {
+    const before = count(await tab.picture(), stage, isModel);
+    await tab.key('-', 'Minus');
+    const smaller = count(await tab.picture(), stage, isModel);
+    assert.ok(smaller < 0.8 * before, `${before} to ${smaller} pixels by key`);
+    await tab.send('Input.dispatchMouseEvent', { type: 'mouseWheel', x: stage.cx, y: stage.cy, deltaX: 0, deltaY: -240 });
+    const larger = count(await tab.picture(), stage, isModel);
+    assert.ok(larger > 1.2 * smaller, `${smaller} to ${larger} pixels by wheel`);
+  },
+  async 'shows normals'(tab, stage) {
+    await tab.click('#view-2');
+    const colours = await tab.evaluate('document.querySelector("#view-2 img").src');
+    await tab.click('#show-normal');
+    near((await tab.picture()).at(stage.cx, stage.cy), [255, 128, 128], 6, 'normal towards +x');
+    assert.notEqual(await tab.evaluate('document.querySelector("#view-2 img").src'), colours, 'captured normals beside them');
+    await tab.click('#view-6');
+    near((await tab.picture()).at(stage.cx, stage.cy), [128, 128, 255], 6, 'normal towards +z');
+  },
+  async 'shows the error'(tab, stage) {
+    await tab.click('#show-error');
+    near((await tab.picture()).at(stage.cx, stage.cy), [223, 230, 234], 8, 'a level that hardly has any');
+    await tab.click('#level', 0.98);
+    await tab.until('document.getElementById("canvas").dataset.level === "2"');
+    near((await tab.picture()).at(stage.cx, stage.cy), [109, 15, 43], 12, 'a level that is too large everywhere');
+    assert.match(await tab.evaluate('document.getElementById("ramp-high").textContent'), /^0\.2\d* units$/);
+    assert.match(await tab.evaluate('document.getElementById("status").textContent'), /^Level 2 · 224 triangles/);
+  },
+  async 'shows the wireframe'(tab, stage) {
+    await tab.click('#show-colour');
+    const before = count(await tab.picture(), stage, isDark);
+    await tab.click('#wireframe');
+    const after = count(await tab.picture(), stage, isDark);
+    assert.ok(after > before + 500, `${before} dark pixels, then ${after}`);
+    await tab.click('#wireframe');
+    assert.equal(count(await tab.picture(), stage, isDark), before, 'and is gone again');
+  },
+  async 'levels by keys'(tab, stage) {
+    const coarse = count(await tab.picture(), stage, isModel);
+    await tab.key(',', 'Comma');
+    await tab.until('document.getElementById("canvas").dataset.level === "1"');
+    const fine = count(await tab.picture(), stage, isModel);
+    assert.ok(coarse > 1.2 * fine, `the coarse level is larger: ${fine}, ${coarse} pixels`);
+    assert.equal(await tab.evaluate('document.querySelector("#levels .current").cells[0].textContent'), '1');
+  },
+  async 'fits a phone'(tab) {
+    await tab.resize(390, 800);
+    await tab.picture();
+    assert.equal(await tab.evaluate('document.documentElement.scrollWidth <= innerWidth'), true, 'no scrolling sideways');
+    const stage = await stageOf(tab);
+    assert.ok(count(await tab.picture(), stage, isModel) > 0.1 * stage.width * stage.height);
+  },
+  async 'never asks the network'(tab) {
+    assert.deepEqual(tab.requests.filter((request) => request !== url && !request.startsWith('data:')), []);
+    assert.ok(tab.requests.includes(url), 'requests are heard');
+    assert.deepEqual(tab.troubles, []);
+  },
+};
+
+/** Runs `work` with a tab; what is seen when it fails goes to PAGE.failed.png. */
+async function browse(flags, work) {
+  const browser = await Chromium.start(program, flags);
+  try {
+    const tab = await browser.open(url, 1200, 760);
+    await work(tab).catch(async (error) => {
+      const { data } = await tab.send('Page.captureScreenshot', { format: 'png' });
+      await writeFile(`${page}.failed.png`, Buffer.from(data, 'base64'));
+      throw error;
+    });
+  } finally {
+    await browser.close();
+  }
+}
+
+await browse(softwareGl, async (tab) => {
+  await tab.until('document.getElementById("canvas").dataset.drawn');
+  const stage = await stageOf(tab);
+  for (const [name, step] of Object.entries(steps)) {
+    console.log(name);
+    await step(tab, stage);
+  }
+});
+await browse(['--disable-3d-apis'], async (tab) => {
+  console.log('says so without WebGL');
+  await tab.until('document.getElementById("message").innerText.includes("WebGL 2 is missing")');
+  assert.equal(await tab.evaluate('document.querySelectorAll("#levels tbody tr").length'), 3, 'the rest is there');
+});
+console.log('all is well');
