@@ -18,6 +18,4 @@ TEST(Page, InChromium) {
     const Ran ran = run(GLCAST_NODE " " GLCAST_PAGE_TEST " chromium " + page);
     EXPECT_EQ(ran.status, 0) << ran.output;
     EXPECT_NE(ran.output.find("all is well"), std::string::npos) << ran.output;
-    const char* keep = std::getenv("GLCAST_KEEP");
-    if (keep) std::filesystem::copy(folder.path(), keep, std::filesystem::copy_options::overwrite_existing);
 }

@@ -61,7 +61,7 @@ export class Chromium {
   }
 
   async open(url, width, height) {
-    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank', width, height });
+    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const tab = new Tab(this, sessionId);
     await tab.go(url, width, height);
@@ -95,7 +95,7 @@ export class Tab {
     for (const domain of ['Network', 'Runtime', 'Page']) await this.send(`${domain}.enable`);
     await this.resize(width, height);
     await this.send('Page.navigate', { url });
-    await this.until('document.readyState === "complete"');
+    await this.until('location.href !== "about:blank" && document.readyState === "complete"');
   }
 
   resize(width, height) {
@@ -113,8 +113,9 @@ export class Tab {
   async until(condition) {
     const ok = await this.evaluate(`new Promise((done) => {
       const end = performance.now() + 15000;
+      const holds = () => { try { return ${condition}; } catch { return false; } };
       (function look() {
-        if (${condition}) done(true); else if (performance.now() > end) done(false); else setTimeout(look, 10);
+        if (holds()) done(true); else if (performance.now() > end) done(false); else setTimeout(look, 10);
       })();
     })`);
     if (!ok) throw new Error(`never came true: ${condition}`);

@@ -21,11 +21,11 @@ async function stageOf(tab) {
   return { x, y, width, height, cx: Math.round(x + width / 2), cy: Math.round(y + height / 2) };
 }
 
-/** Pixels of the canvas that meet a condition. */
+/** Pixels of the canvas that meet a condition, of every third in both directions. */
 function count(picture, stage, condition) {
   let found = 0;
-  for (let y = 60; y < stage.height - 60; ++y)
-    for (let x = 0; x < stage.width; ++x) if (condition(picture.at(Math.round(stage.x) + x, Math.round(stage.y) + y))) ++found;
+  for (let y = 60; y < stage.height - 60; y += 3)
+    for (let x = 0; x < stage.width; x += 3) if (condition(picture.at(Math.round(stage.x) + x, Math.round(stage.y) + y))) ++found;
   return found;
 }
 
@@ -36,7 +36,7 @@ const steps = {
   async 'shows the surface in its colours'(tab, stage) {
     const picture = await tab.picture();
     const model = count(picture, stage, isModel);
-    assert.ok(model > 0.1 * stage.width * stage.height, `${model} pixels of the model`);
+    assert.ok(model > 0.01 * stage.width * stage.height, `${model} pixels of the model`);
     near(picture.at(Math.round(stage.x) + 5, stage.cy), background, 2, 'beside the model');
     assert.equal(await tab.evaluate('document.querySelectorAll("#levels tbody tr").length'), 3);
     assert.equal(await tab.evaluate('document.getElementById("level").max'), '1', 'one level is left out');
@@ -104,7 +104,7 @@ const steps = {
     await tab.click('#level', 0.98);
     await tab.until('document.getElementById("canvas").dataset.level === "2"');
     near((await tab.picture()).at(stage.cx, stage.cy), [109, 15, 43], 12, 'a level that is too large everywhere');
-    assert.match(await tab.evaluate('document.getElementById("ramp-high").textContent'), /^0\.2\d* units$/);
+    assert.match(await tab.evaluate('document.getElementById("ramp-high").textContent'), /^3\.2 samples$/);
     assert.match(await tab.evaluate('document.getElementById("status").textContent'), /^Level 2 · 224 triangles/);
   },
   async 'shows the wireframe'(tab, stage) {
@@ -112,7 +112,7 @@ const steps = {
     const before = count(await tab.picture(), stage, isDark);
     await tab.click('#wireframe');
     const after = count(await tab.picture(), stage, isDark);
-    assert.ok(after > before + 500, `${before} dark pixels, then ${after}`);
+    assert.ok(after > before + 100, `${before} dark pixels, then ${after}`);
     await tab.click('#wireframe');
     assert.equal(count(await tab.picture(), stage, isDark), before, 'and is gone again');
   },
@@ -129,7 +129,7 @@ const steps = {
     await tab.picture();
     assert.equal(await tab.evaluate('document.documentElement.scrollWidth <= innerWidth'), true, 'no scrolling sideways');
     const stage = await stageOf(tab);
-    assert.ok(count(await tab.picture(), stage, isModel) > 0.1 * stage.width * stage.height);
+    assert.ok(count(await tab.picture(), stage, isModel) > 0.01 * stage.width * stage.height);
   },
   async 'never asks the network'(tab) {
     assert.deepEqual(tab.requests.filter((request) => request !== url && !request.startsWith('data:')), []);
@@ -142,7 +142,7 @@ const steps = {
 async function browse(flags, work) {
   const browser = await Chromium.start(program, flags);
   try {
-    const tab = await browser.open(url, 1200, 760);
+    const tab = await browser.open(url, 900, 560);
     await work(tab).catch(async (error) => {
       const { data } = await tab.send('Page.captureScreenshot', { format: 'png' });
       await writeFile(`${page}.failed.png`, Buffer.from(data, 'base64'));

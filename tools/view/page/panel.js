@@ -17,8 +17,9 @@ export function lengthIn(scene) {
   const unit = scene.sample > 0 ? scene.sample : 1;
   return (length) => {
     const value = length / unit;
-    return value === 0 ? '0' : value < 0.001 ? value.toExponential(0) : value.toPrecision(2).includes('e')
-      ? Math.round(value).toString() : value.toPrecision(2);
+    if (value === 0) return '0';
+    if (value < 1e-4) return value.toExponential(0);
+    return value < 99.5 ? value.toPrecision(2) : Math.round(value).toString();
   };
 }
 

@@ -45,9 +45,11 @@ void main() {
     fragment = vec4((transpose(turn) * eyeNormal) * 0.5 + 0.5, 1.0);
     return;
   }
-  vec3 own = mode == ${modes.error} ? ramp(vDistance * distanceScale) : hasColours ? vColour : vec3(0.78);
-  float light = abs(eyeNormal.z);
-  fragment = vec4(own * mix(0.45, 1.0, light), 1.0);
+  if (mode == ${modes.error}) { // flat and pale, so that the colours can be read off
+    fragment = vec4(ramp(vDistance * distanceScale) * mix(0.7, 1.0, abs(face.z)), 1.0);
+    return;
+  }
+  fragment = vec4((hasColours ? vColour : vec3(0.78)) * mix(0.45, 1.0, abs(eyeNormal.z)), 1.0);
 }`;
 
 export const wireFragmentShader = `
