@@ -37,6 +37,8 @@ EXAMPLES = {
     "glcast info": [("What is in a capture, for a script:", "glcast info gears.exr --json")],
     "glcast compare": [("How far a cast is from the original:", "glcast compare original.obj cast.glb")],
     "glcast render": [("Six sides and two corners of every level:", "glcast render gears.glb -o gears.png")],
+    "glcast view": [("A page with the levels beside the captured views:",
+                     "glcast view gears.glb --capture gears.exr -o gears.html")],
 }
 
 
