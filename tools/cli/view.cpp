@@ -180,7 +180,7 @@ Run declare_view(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.footer("The page is one file: it opens by double-click, and never uses the network. A capture is meshed first, as\n"
                "glcast mesh does without options. Of several files, each is a level, the one with most triangles level 0.\n"
-               "Sizes: about 8 bytes a triangle, and 0.5 MB for the page itself.");
+               "Sizes: 5 to 12 bytes a triangle, and 0.55 MB for the page itself.");
     app.add_option("file", options->files,
                    "mesh with its levels (.glb), one mesh a level (.glb, .obj, .ply, .off, .stl), or a capture (.exr)")
         ->required();
