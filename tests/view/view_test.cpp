@@ -15,7 +15,7 @@ namespace {
 
 Ran view(const std::string& arguments) { return run(GLCAST_COMMAND " view " + arguments); }
 
-Json json_of(const std::string& arguments) {
+[[maybe_unused]] Json json_of(const std::string& arguments) {
     const Ran ran = view(arguments + " --json 2>/dev/null");
     EXPECT_EQ(ran.status, 0) << ran.output;
     return ran.status == 0 ? Json::parse(ran.output) : Json();
@@ -28,7 +28,7 @@ void expect_one_line(const Ran& ran, int status, const std::string& part) {
     EXPECT_NE(ran.output.find(part), std::string::npos) << ran.output;
 }
 
-std::size_t occurrences(const std::string& text, const std::string& what) {
+[[maybe_unused]] std::size_t occurrences(const std::string& text, const std::string& what) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++found;
     return found;
