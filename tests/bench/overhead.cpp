@@ -97,8 +97,12 @@ void measure_glxgears(const Xvfb& server, const TemporaryFolder& folder, int rou
             if (std::regex_search(outcome.out, match, fps))
                 kind.results.push_back(std::strtod(match[1].str().c_str(), nullptr));
         }
-    for (const Kind& kind : kinds)
-        std::printf("glxgears, %-30s %10.1f frames a second\n", kind.name, median(kind.results));
+    for (const Kind& kind : kinds) {
+        if (kind.results.empty()) continue;
+        const double most = *std::max_element(kind.results.begin(), kind.results.end());
+        std::printf("glxgears, %-36s median %7.1f, most %7.1f frames a second\n", kind.name,
+                    median(kind.results), most);
+    }
 }
 
 double number_in(const std::string& text, const char* pattern) {
@@ -117,8 +121,9 @@ void measure_capture(const Xvfb& server, const TemporaryFolder& folder, int roun
         const double fps = number_in(run_kind(plain, server, program, 11).out, "= ([0-9.]+) FPS");
         if (fps > 0) frames.push_back(1 / fps);
     }
-    std::printf("own frame, 512 x 512 pixels: median %.2f ms, %zu rounds\n", 1e3 * median(frames),
-                frames.size());
+    const double least = frames.empty() ? 0 : *std::min_element(frames.begin(), frames.end());
+    std::printf("own frame, 512 x 512 pixels: median %.2f ms, least %.2f ms, %zu rounds\n",
+                1e3 * median(frames), 1e3 * least, frames.size());
     for (const char* layers : {"1", "auto"}) {
         const Kind kind{"capture",
                         {},
