@@ -88,7 +88,7 @@ TEST_F(ViewCommand, LargeLevelsAreLeftOut) {
 }
 
 TEST_F(ViewCommand, ACaptureIsMeshedAndShown) {
-    ASSERT_EQ(write_nested(file("c.exr"), 32), "");
+    ASSERT_EQ(write_nested(file("c.exr"), 64), "");
     const Json told = json_of(file("c.exr") + " -o " + file("c.html"));
     EXPECT_EQ(told["views"], 6) << "the six, and none of the layers behind them";
     EXPECT_GE(told["levels"].size(), 2u);
