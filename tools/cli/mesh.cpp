@@ -260,7 +260,7 @@ int make_mesh(const Options& options) {
 std::vector<Level> mesh_capture(const std::string& capture) {
     Options options;
     options.capture = capture;
-    options.output = ".glb"; // for its levels; nothing is written
+    options.output = "levels.glb"; // for its levels; nothing is written
     Made made;
     make_surface(options, made);
     make_levels(options, made);
