@@ -161,16 +161,7 @@ bool nothing_between(const OuterHits& hits, int n) {
     return true;
 }
 
-ViewImage blank_layer(int n, Axis axis, int layer) {
-    const std::size_t pixels = std::size_t(n) * n;
-    ViewImage image;
-    image.view = {axis, Side::minus, layer};
-    image.n = n;
-    image.depth.assign(pixels, ViewImage::background(Side::minus));
-    image.colour.assign(pixels, glm::vec4(0));
-    image.normal.assign(pixels, glm::vec4(0));
-    return image;
-}
+ViewImage blank_layer(int n, Axis axis, int layer) { return blank_image({axis, Side::minus, layer}, n); }
 
 AxisLayers peel_axis(const LayerTask& task, const PeelShader& shader, const OuterHits& hits,
                      const LayerSink& sink) {

@@ -22,4 +22,11 @@ struct ViewImage {
     bool covered(std::size_t pixel) const { return colour[pixel].a > 0; }
 };
 
+/// A view that shows nothing yet.
+inline ViewImage blank_image(const View& view, int n) {
+    const std::size_t pixels = std::size_t(n) * n;
+    return {view, n, std::vector<float>(pixels, ViewImage::background(view.side)),
+            std::vector<glm::vec4>(pixels, glm::vec4(0)), std::vector<glm::vec4>(pixels, glm::vec4(0))};
+}
+
 } // namespace glcast

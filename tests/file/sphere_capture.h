@@ -25,13 +25,7 @@ inline CaptureInfo sphere_info(int n) {
 /// A sphere of that radius (of the box) in the box's centre, with colours that change from pixel to pixel as
 /// textures do.
 inline ViewImage sphere_view(int n, Axis axis, Side side, double radius = 0.4) {
-    ViewImage image;
-    image.view = {axis, side, 0};
-    image.n = n;
-    const std::size_t pixels = static_cast<std::size_t>(n) * n;
-    image.depth.assign(pixels, ViewImage::background(side));
-    image.colour.assign(pixels, glm::vec4(0));
-    image.normal.assign(pixels, glm::vec4(0));
+    ViewImage image = blank_image({axis, side, 0}, n);
     const ImageAxes axes = image_axes(axis);
     const double sign = side == Side::minus ? -1 : 1;
     for (int j = 0; j < n; ++j)

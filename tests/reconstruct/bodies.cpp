@@ -119,7 +119,8 @@ class Cylinder : public Body {
         const double up = glm::dot(o, axis), rise = glm::dot(d, axis);
         const dvec3 flat = o - axis * up, run = d - axis * rise;
         Stretch s{-1e300, 1e300, {}, {}, colour, colour};
-        const double a = glm::dot(run, run), b = glm::dot(flat, run), c = glm::dot(flat, flat) - radius * radius;
+        const double a = glm::dot(run, run), b = glm::dot(flat, run),
+                     c = glm::dot(flat, flat) - radius * radius;
         if (a < 1e-14) {
             if (c > 0) return {};
         } else {
@@ -221,14 +222,6 @@ dvec3 ray_direction(Axis axis) {
     return d;
 }
 
-ViewImage blank(View view, int n) {
-    ViewImage image{view, n, {}, {}, {}};
-    image.depth.assign(std::size_t(n) * n, ViewImage::background(view.side));
-    image.colour.assign(image.depth.size(), glm::vec4(0));
-    image.normal.assign(image.depth.size(), glm::vec4(0));
-    return image;
-}
-
 } // namespace
 
 BodyPtr sphere(dvec3 centre, double radius, glm::vec3 colour) {
@@ -254,7 +247,8 @@ glm::dmat3 turned(dvec3 axis, double degrees) {
 std::vector<ViewImage> cast_layers(const Body& body, const Box& box, int n, const NormalEdit& edit) {
     std::vector<ViewImage> images;
     for (int a = 0; a < 3; ++a) {
-        std::vector<ViewImage> layers{blank({Axis(a), Side::minus, 0}, n), blank({Axis(a), Side::plus, 0}, n)};
+        std::vector<ViewImage> layers{blank_image({Axis(a), Side::minus, 0}, n),
+                                      blank_image({Axis(a), Side::plus, 0}, n)};
         const dvec3 d = ray_direction(Axis(a));
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
@@ -268,9 +262,10 @@ std::vector<ViewImage> cast_layers(const Body& body, const Box& box, int n, cons
                     if (edit) normal = edit(p + d * t, normal);
                     const std::size_t layer = k == 0 ? 0 : k + 1 == ends ? 1 : k + 1; // 0, 1: the outer views
                     while (layers.size() <= layer)
-                        layers.push_back(blank({Axis(a), Side::minus, int(layers.size()) - 1}, n));
+                        layers.push_back(blank_image({Axis(a), Side::minus, int(layers.size()) - 1}, n));
                     ViewImage& image = layers[layer];
-                    image.depth[at] = float(std::clamp(t / box.size, 0.0, 1.0)); // cut by the near and far planes
+                    image.depth[at] =
+                        float(std::clamp(t / box.size, 0.0, 1.0)); // cut by the near and far planes
                     image.colour[at] = glm::vec4(k % 2 ? s.c1 : s.c0, 1);
                     image.normal[at] = glm::vec4(glm::vec3(normal), 1);
                 }
@@ -290,7 +285,8 @@ std::vector<ViewImage> noise_images(int n, std::mt19937& random, double coverage
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<ViewImage> images;
     for (int a = 0; a < 3; ++a) {
-        ViewImage near = blank({Axis(a), Side::minus, 0}, n), far = blank({Axis(a), Side::plus, 0}, n);
+        ViewImage near = blank_image({Axis(a), Side::minus, 0}, n),
+                  far = blank_image({Axis(a), Side::plus, 0}, n);
         for (std::size_t p = 0; p < near.depth.size(); ++p) {
             if (unit(random) > coverage) continue;
             const float x = unit(random), y = unit(random);
@@ -329,7 +325,8 @@ std::vector<dvec3> visible_points(const Body& body, const Box& box, int rays_per
             const dvec3 d(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
             if (glm::dot(d, normal) < 0.05) continue;
             const auto stretches = body.cut(p + normal * (1e-6 * box.size), d);
-            if (std::none_of(stretches.begin(), stretches.end(), [](auto& s) { return s.t1 > 0; })) return true;
+            if (std::none_of(stretches.begin(), stretches.end(), [](auto& s) { return s.t1 > 0; }))
+                return true;
         }
         return false;
     };

@@ -46,14 +46,6 @@ void cast_triangle(const Mesh& mesh, const Triangle& t, const Box& box, int n, A
         }
 }
 
-ViewImage blank(View view, int n) {
-    ViewImage image{view, n, {}, {}, {}};
-    image.depth.assign(std::size_t(n) * n, ViewImage::background(view.side));
-    image.colour.assign(image.depth.size(), glm::vec4(0));
-    image.normal.assign(image.depth.size(), glm::vec4(0));
-    return image;
-}
-
 void put(ViewImage& image, std::size_t pixel, const Hit& hit) {
     image.depth[pixel] = float(hit.depth);
     image.colour[pixel] = glm::vec4(hit.colour, 1);
@@ -67,18 +59,21 @@ std::vector<ViewImage> cast_mesh(const Mesh& mesh, const Box& box, int n) {
     for (int a = 0; a < 3; ++a) {
         Rays rays(std::size_t(n) * n);
         for (const Triangle& t : mesh.triangles) cast_triangle(mesh, t, box, n, Axis(a), rays);
-        std::vector<ViewImage> layers{blank({Axis(a), Side::minus, 0}, n), blank({Axis(a), Side::plus, 0}, n)};
+        std::vector<ViewImage> layers{blank_image({Axis(a), Side::minus, 0}, n),
+                                      blank_image({Axis(a), Side::plus, 0}, n)};
         for (std::size_t p = 0; p < rays.size(); ++p) {
             auto& ray = rays[p];
             std::sort(ray.begin(), ray.end(), [](auto& x, auto& y) { return x.depth < y.depth; });
             const double same = 1e-3 / n;
-            ray.erase(std::unique(ray.begin(), ray.end(), [&](auto& x, auto& y) { return y.depth - x.depth < same; }),
+            ray.erase(std::unique(ray.begin(), ray.end(),
+                                  [&](auto& x, auto& y) { return y.depth - x.depth < same; }),
                       ray.end());
             if (ray.empty()) continue;
             put(layers[0], p, ray.front());
             put(layers[1], p, ray.back());
             for (std::size_t k = 1; k + 1 < ray.size(); ++k) {
-                while (layers.size() <= k + 1) layers.push_back(blank({Axis(a), Side::minus, int(layers.size()) - 1}, n));
+                while (layers.size() <= k + 1)
+                    layers.push_back(blank_image({Axis(a), Side::minus, int(layers.size()) - 1}, n));
                 put(layers[k + 1], p, ray[k]);
             }
         }
