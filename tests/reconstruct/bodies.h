@@ -32,7 +32,8 @@ BodyPtr torus(glm::dvec3 centre, glm::dvec3 axis, double ring, double tube, glm:
 /// `turn`: columns are the box's axes.
 BodyPtr box(glm::dvec3 centre, glm::dvec3 half, glm::dmat3 turn = glm::dmat3(1),
             glm::vec3 colour = {0, 0, 1});
-BodyPtr cylinder(glm::dvec3 centre, glm::dvec3 axis, double radius, double half, glm::vec3 colour = {1, 1, 0});
+BodyPtr cylinder(glm::dvec3 centre, glm::dvec3 axis, double radius, double half,
+                 glm::vec3 colour = {1, 1, 0});
 BodyPtr unite(std::vector<BodyPtr> parts);
 BodyPtr subtract(BodyPtr from, BodyPtr what);
 glm::dmat3 turned(glm::dvec3 axis, double degrees);
@@ -50,6 +51,7 @@ std::vector<ViewImage> noise_images(int n, std::mt19937& random, double coverage
 std::vector<glm::dvec3> surface_points(const Body& body, const Box& box, int rays_per_axis);
 
 /// Points of all surfaces along the rays that can be seen from far away in one of so many directions.
-std::vector<glm::dvec3> visible_points(const Body& body, const Box& box, int rays_per_axis, int directions = 200);
+std::vector<glm::dvec3> visible_points(const Body& body, const Box& box, int rays_per_axis,
+                                       int directions = 200);
 
 } // namespace glcast::test

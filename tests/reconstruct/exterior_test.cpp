@@ -48,8 +48,8 @@ TEST_P(CavitiesThatNoAxisSees, ComeOutExact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Exterior, CavitiesThatNoAxisSees,
-                         testing::Values(Bar{"cup", .01, 2}, Bar{"bent_tube", .01, 0}, Bar{"bracket", .01, -2},
-                                         Bar{"fins", .01, 2}),
+                         testing::Values(Bar{"cup", .01, 2}, Bar{"bent_tube", .01, 0},
+                                         Bar{"bracket", .01, -2}, Bar{"fins", .01, 2}),
                          [](const auto& info) { return std::string(info.param.body); });
 
 TEST(Exterior, WhatAClosedShellHidesGoes) {
@@ -107,7 +107,8 @@ TEST(Exterior, PassagesAreSealedByTheirWidth) {
 TEST(Exterior, ASlitInSolidMatterWiderThanTheRadiusStaysOpen) {
     const double sample = sample_size(n);
     for (double width : {2.0, 5.0}) {
-        const BodyPtr block = subtract(box({0, 0, 0}, glm::dvec3(0.6)), box({0, 0.004, 0.4}, {2, width / 2 * sample, 0.4}));
+        const BodyPtr block =
+            subtract(box({0, 0, 0}, glm::dvec3(0.6)), box({0, 0.004, 0.4}, {2, width / 2 * sample, 0.4}));
         const double volume = topology(cast_deep(*block, n).mesh).volume, whole = 1.2 * 1.2 * 1.2;
         const double slit = 1.2 * width * sample * 0.6;
         EXPECT_NEAR(volume, width < 3 ? whole : whole - slit, 0.1 * slit) << width; // the mouths are rounded

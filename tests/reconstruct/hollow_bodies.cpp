@@ -16,7 +16,8 @@ BodyPtr cup() {
 BodyPtr bent_tube() {
     const glm::dmat3 turn = turned({1, 2, 0.5}, 30);
     const dvec3 axis = turn[2];
-    const BodyPtr wall = subtract(torus({0, 0, 0}, axis, 0.55, 0.3), torus({0, 0, 0}, axis, 0.55, 0.2, {1, 0, 0}));
+    const BodyPtr wall =
+        subtract(torus({0, 0, 0}, axis, 0.55, 0.3), torus({0, 0, 0}, axis, 0.55, 0.2, {1, 0, 0}));
     return subtract(wall, box(turn * dvec3(1, 1, 0), dvec3(1, 1, 1), turn));
 }
 
@@ -41,11 +42,12 @@ BodyPtr sphere_in_box() {
                   sphere({0, 0, 0}, 0.35, {1, 0, 0})});
 }
 
-/// Open windows on both sides; a slit around the bonnet, a tenth of the windows' height; an engine that only the slit
-/// shows, a seat behind the windows.
+/// Open windows on both sides; a slit around the bonnet, a tenth of the windows' height; an engine that only
+/// the slit shows, a seat behind the windows.
 BodyPtr car() {
-    BodyPtr shell = subtract(unite({box({0, 0, -0.2}, {0.9, 0.45, 0.25}), box({-0.1, 0, 0.25}, {0.5, 0.4, 0.25})}),
-                             unite({box({0, 0, -0.2}, {0.85, 0.4, 0.2}), box({-0.1, 0, 0.2}, {0.45, 0.35, 0.25})}));
+    BodyPtr shell =
+        subtract(unite({box({0, 0, -0.2}, {0.9, 0.45, 0.25}), box({-0.1, 0, 0.25}, {0.5, 0.4, 0.25})}),
+                 unite({box({0, 0, -0.2}, {0.85, 0.4, 0.2}), box({-0.1, 0, 0.2}, {0.45, 0.35, 0.25})}));
     shell = subtract(shell, box({-0.1, 0, 0.27}, {0.3, 1, 0.14}));
     shell = subtract(shell, box({0.62, 0, 0.04}, {0.01, 0.3, 0.05}));
     shell = unite({shell, box({0.43, 0, -0.2}, {0.03, 0.43, 0.24})});
@@ -64,8 +66,8 @@ BodyPtr bottle() {
 } // namespace
 
 std::vector<HollowBody> hollow_bodies() {
-    return {{"cup", cup()},   {"bent_tube", bent_tube()},           {"bracket", bracket()},
-            {"fins", fins()}, {"sphere_in_box", sphere_in_box()},   {"car", car()},
+    return {{"cup", cup()},      {"bent_tube", bent_tube()},         {"bracket", bracket()},
+            {"fins", fins()},    {"sphere_in_box", sphere_in_box()}, {"car", car()},
             {"bottle", bottle()}};
 }
 

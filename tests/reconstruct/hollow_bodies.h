@@ -9,8 +9,8 @@ struct HollowBody {
     BodyPtr body;
 };
 
-/// Cup tilted by 40 degrees, bent tube, bracket with tilted bores, fins one behind another, sphere in a closed box,
-/// car-like shell with slits and open windows, bottle with a narrow neck.
+/// Cup tilted by 40 degrees, bent tube, bracket with tilted bores, fins one behind another, sphere in a
+/// closed box, car-like shell with slits and open windows, bottle with a narrow neck.
 std::vector<HollowBody> hollow_bodies();
 
 } // namespace glcast::test

@@ -18,7 +18,9 @@ Mesh turned_mesh(std::vector<glm::dvec3> positions, std::vector<Triangle> triang
     return mesh;
 }
 
-Mesh leaf() { return turned_mesh({{-.7, 0, 0}, {0, -.4, .1}, {.7, 0, 0}, {0, .4, .1}}, {{0, 1, 2}, {0, 2, 3}}, 37); }
+Mesh leaf() {
+    return turned_mesh({{-.7, 0, 0}, {0, -.4, .1}, {.7, 0, 0}, {0, .4, .1}}, {{0, 1, 2}, {0, 2, 3}}, 37);
+}
 
 Mesh cone_without_bottom() {
     std::vector<glm::dvec3> positions{{0, 0, .7}};
@@ -33,10 +35,19 @@ Mesh cone_without_bottom() {
 
 Mesh box_without_lid(double degrees) {
     std::vector<glm::dvec3> positions;
-    for (int c = 0; c < 8; ++c) positions.push_back({c & 1 ? .5 : -.5, c >> 1 & 1 ? .6 : -.6, c >> 2 ? .4 : -.4});
+    for (int c = 0; c < 8; ++c)
+        positions.push_back({c & 1 ? .5 : -.5, c >> 1 & 1 ? .6 : -.6, c >> 2 ? .4 : -.4});
     return turned_mesh(positions,
-                       {{0, 1, 3}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4},
-                        {1, 3, 7}, {1, 7, 5}},
+                       {{0, 1, 3},
+                        {0, 3, 2},
+                        {0, 1, 5},
+                        {0, 5, 4},
+                        {2, 3, 7},
+                        {2, 7, 6},
+                        {0, 2, 6},
+                        {0, 6, 4},
+                        {1, 3, 7},
+                        {1, 7, 5}},
                        degrees);
 }
 
@@ -65,8 +76,10 @@ double mean_distance(const Mesh& mesh, const Mesh& sheet) {
     for (const glm::dvec3& p : mesh.positions) {
         double least = 1e300;
         for (const Triangle& t : sheet.triangles)
-            least = std::min(least, glm::distance(p, nearest_in_triangle(p, sheet.positions[t[0]], sheet.positions[t[1]],
-                                                                         sheet.positions[t[2]]).point));
+            least = std::min(
+                least, glm::distance(p, nearest_in_triangle(p, sheet.positions[t[0]], sheet.positions[t[1]],
+                                                            sheet.positions[t[2]])
+                                            .point));
         sum += least;
     }
     return sum / double(mesh.positions.size());

@@ -64,7 +64,8 @@ class Opinion {
     }
 
   private:
-    /// The pixel's nearest hit that agrees; of two at one depth, as the two sides of a sheet are, the one on our side.
+    /// The pixel's nearest hit that agrees; of two at one depth, as the two sides of a sheet are, the one on
+    /// our side.
     void consider(int u, int v) {
         if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return;
         const std::size_t p = std::size_t(v) * rays.n + u;
@@ -82,7 +83,8 @@ class Opinion {
             const glm::vec3 plane = unpack_normal(hits.plane[i]);
             const float distance = std::abs(glm::dot(plane, from_hit));
             const bool nearer = distance < pixel.distance - same_place;
-            if (!nearer && !(side == 1 && best != hits.start[p + 1] && distance < pixel.distance + same_place))
+            if (!nearer &&
+                !(side == 1 && best != hits.start[p + 1] && distance < pixel.distance + same_place))
                 continue;
             pixel.distance = distance;
             pixel.plane = plane;
@@ -186,8 +188,6 @@ Square square_at(const Mesh& mesh, std::size_t q) {
         square.sample[k] = int(std::lround(middle[k] - (k == square.axis ? (square.side ? 0.5 : -0.5) : 0)));
     return square;
 }
-
-constexpr std::uint32_t no_hit = ~0u;
 
 std::uint32_t hit_near(const AxisHits& hits, std::size_t pixel, float depth, int side) {
     std::uint32_t best = no_hit;

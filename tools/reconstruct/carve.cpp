@@ -25,10 +25,7 @@ struct Spans {
     int n;
     std::array<AxisSpans, 3> axis;
 
-    std::size_t pixel(int a, const std::array<int, 3>& s) const {
-        const ImageAxes image = image_axes(static_cast<Axis>(a));
-        return std::size_t(s[image.v]) * n + s[image.u];
-    }
+    std::size_t pixel(int a, const std::array<int, 3>& s) const { return pixel_of(a, s, n); }
     bool left_by(int a, const std::array<int, 3>& s) const {
         const std::size_t p = pixel(a, s);
         return axis[a].first[p] <= s[a] && s[a] <= axis[a].last[p];
@@ -111,7 +108,8 @@ bool is_carved(const Spans& rays, const std::array<int, 3>& s) {
         const std::size_t p = rays.pixel(a, s);
         const float at = float(s[a]);
         if (rays.left_by(a, s)) continue;
-        if (at < rays.axis[a].depth.front[p] - grazing || at > rays.axis[a].depth.back[p] + grazing) return true;
+        if (at < rays.axis[a].depth.front[p] - grazing || at > rays.axis[a].depth.back[p] + grazing)
+            return true;
     }
     return false;
 }
@@ -206,8 +204,8 @@ Volume between_all_hits(const Spans& rays) {
     return Volume(rays.n, slices);
 }
 
-std::vector<std::uint64_t> kept_samples(const Spans& rays) {
-    std::vector<std::uint64_t> out;
+std::vector<SampleId> kept_samples(const Spans& rays) {
+    std::vector<SampleId> out;
     const int n = rays.n;
     for (int a = 0; a < 3; ++a) {
         const AxisSpans& axis = rays.axis[a];
@@ -217,7 +215,7 @@ std::vector<std::uint64_t> kept_samples(const Spans& rays) {
             s[image.u] = int(p % n);
             s[image.v] = int(p / n);
             s[image.depth] = depth;
-            out.push_back((std::uint64_t(s[2]) * n + s[1]) * n + s[0]);
+            out.push_back(id_of(s, n));
         };
         for (std::size_t p = 0; p < axis.keep.size(); ++p) {
             if (axis.keep[p] & (keep_between | keep_first)) put(p, axis.first[p]);

@@ -143,8 +143,7 @@ CellGrid find_cells(const Rays& rays) {
         slabs[i] = sweep_slab(rays, i * slab_layers, std::min(layers, (i + 1) * slab_layers));
     });
     CellGrid grid = join(slabs, rays.n);
-    if (grid.cells.empty())
-        throw std::runtime_error("the images enclose nothing: no sample is filled");
+    if (grid.cells.empty()) throw std::runtime_error("the images enclose nothing: no sample is filled");
     return grid;
 }
 

@@ -12,8 +12,8 @@ namespace glcast {
 /// empty.
 struct Cell {
     std::uint16_t x;
-    std::uint8_t config;  ///< bit per corner, patches.h
-    std::uint8_t flipped; ///< its flipped face, or no_face
+    std::uint8_t config;      ///< bit per corner, patches.h
+    std::uint8_t flipped;     ///< its flipped face, or no_face
     std::uint32_t first;      ///< its first vertex; one per patch
     std::uint32_t first_quad; ///< of the edges from its corner 0 that change sign, along x, y, z
 };

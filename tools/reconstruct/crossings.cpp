@@ -12,7 +12,7 @@
 namespace glcast {
 namespace {
 
-constexpr float tolerance = 0.06f;      // a hit this far beyond its edge still belongs to it, samples
+constexpr float tolerance = 0.06f; // a hit this far beyond its edge still belongs to it, samples
 
 struct Edge {
     const Rays& rays;
@@ -30,8 +30,6 @@ struct Estimate {
 
 bool plausible(float s) { return s >= -0.1f && s <= 1.1f; }
 
-constexpr std::uint32_t no_hit = ~0u;
-
 /// Of a ray, the first hit at or above a height or the last one at or below it.
 std::uint32_t hit_above(const AxisHits& hits, std::size_t pixel, float z) {
     for (std::uint32_t i = hits.start[pixel]; i < hits.start[pixel + 1]; ++i)
@@ -44,8 +42,8 @@ std::uint32_t hit_below(const AxisHits& hits, std::size_t pixel, float z) {
     return no_hit;
 }
 
-/// The hit that bounds the body at height z of the edge on its side: seen from F the surface lies further out, seen
-/// from E it lies behind.
+/// The hit that bounds the body at height z of the edge on its side: seen from F the surface lies further
+/// out, seen from E it lies behind.
 std::uint32_t bounding_hit(const Edge& e, int across, int side, bool at_empty) {
     const AxisHits& hits = e.rays.axis[across];
     const std::size_t pixel = e.rays.pixel(across, at_empty ? e.empty : e.filled);
@@ -119,7 +117,8 @@ std::optional<Estimate> steepening_outline(const Edge& e, int across, int side) 
     if (!e.rays.inside(inner.filled)) return std::nullopt;
     float slope[2];
     for (int k = 0; k < 2; ++k) {
-        const glm::vec3 normal = plane_of(e.rays, across, side, bounding_hit(k ? inner : e, across, side, false));
+        const glm::vec3 normal =
+            plane_of(e.rays, across, side, bounding_hit(k ? inner : e, across, side, false));
         if (normal[across] == 0) return std::nullopt;
         slope[k] = normal[e.axis] * float(e.towards) / std::abs(normal[across]);
         if (!(slope[k] > 0.05f)) return std::nullopt;
@@ -136,7 +135,8 @@ std::optional<Estimate> steepening_outline(const Edge& e, int across, int side) 
 /// What the rays `across` see beside E.
 std::optional<Estimate> seen_across(const Edge& e, int across) {
     if (!e.rays.axis[across].hit(e.rays.pixel(across, e.empty))) return round_outline(e, across);
-    const bool below = bounding_hit(e, across, 1, true) != no_hit, above = bounding_hit(e, across, 0, true) != no_hit;
+    const bool below = bounding_hit(e, across, 1, true) != no_hit,
+               above = bounding_hit(e, across, 0, true) != no_hit;
     for (int side : {0, 1}) {
         if (!(side ? below : above)) continue;
         if (const auto found = between_planes(e, across, side)) return found;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "tools/reconstruct/sheets.h"
 #include "tools/reconstruct/sight.h"
@@ -19,8 +17,8 @@ constexpr int shallow = 3; // samples: a groove no deeper than this stays open, 
 
 int step_of(int radius) { return 3 * radius + shallow; }
 
-/// The hidden coarse cell's samples and, of those beside walls, which no coarse cell holds whole, the ones that are
-/// nearer to hidden samples than to open ones.
+/// The hidden coarse cell's samples and, of those beside walls, which no coarse cell holds whole, the ones
+/// that are nearer to hidden samples than to open ones.
 class Hiding {
   public:
     Hiding(const Rays& rays, const SliceHits& along_z, const Volume& space, const Sight& sight)
@@ -28,37 +26,31 @@ class Hiding {
         if (sight.scale > 1) find_undecided(along_z);
     }
     Volume open_space() const {
-        std::vector<SliceRuns> slices(n);
-        tbb::parallel_for(0, n, [&](int z) {
-            std::vector<Word> bits(words_of(n));
-            for (int y = 0; y < n; ++y) {
-                std::fill(bits.begin(), bits.end(), 0);
-                space.set_bits(y, z, bits.data());
-                clear_hidden(y, z, bits.data());
-                slices[z].add_row(bits.data(), n);
-            }
+        return make_volume(n, [&](int y, int z, Word* bits) {
+            space.set_bits(y, z, bits);
+            for_hidden(y, z, [&](int x) { bits[x >> 6] &= ~(Word(1) << (x & 63)); });
+            const SampleId row = id_of({0, y, z}, n);
+            for (auto at = std::lower_bound(besides.begin(), besides.end(), row);
+                 at != besides.end() && *at < row + n; ++at)
+                bits[(*at - row) >> 6] &= ~(Word(1) << ((*at - row) & 63));
         });
-        return Volume(n, slices);
     }
 
   private:
     bool hidden_cell(const std::array<int, 3>& s) const { return sight.at(s) == Sight::hidden; }
+    /// The row's samples of the space in hidden cells.
+    template <class Visit> void for_hidden(int y, int z, Visit visit) const {
+        for (const Run* run = space.begin(y, z); run != space.end(y, z); ++run)
+            for (int x = run->first; x <= run->last; ++x)
+                if (hidden_cell({x, y, z})) visit(x);
+    }
     Volume in_hidden_cells() const {
-        std::vector<SliceRuns> slices(n);
-        tbb::parallel_for(0, n, [&](int z) {
-            std::vector<Word> bits(words_of(n));
-            for (int y = 0; y < n; ++y) {
-                std::fill(bits.begin(), bits.end(), 0);
-                for (const Run* run = space.begin(y, z); run != space.end(y, z); ++run)
-                    for (int x = run->first; x <= run->last; ++x)
-                        if (hidden_cell({x, y, z})) set_bit(bits.data(), x);
-                slices[z].add_row(bits.data(), n);
-            }
-        });
-        return Volume(n, slices);
+        return make_volume(
+            n, [&](int y, int z, Word* bits) { for_hidden(y, z, [&](int x) { set_bit(bits, x); }); });
     }
     void find_undecided(const SliceHits& along_z) {
-        const auto undecided = [&](const std::array<int, 3>& s) { return space.has(s) && sight.at(s) == Sight::not_free;
+        const auto undecided = [&](const std::array<int, 3>& s) {
+            return space.has(s) && sight.at(s) == Sight::not_free;
         };
         std::vector<SampleId> first = beside(rays, along_z, in_hidden_cells());
         std::erase_if(first, [&](SampleId id) { return !undecided(sample_of(id, n)); });
@@ -80,16 +72,6 @@ class Hiding {
         });
         std::sort(besides.begin(), besides.end());
     }
-    void clear_hidden(int y, int z, Word* bits) const {
-        for (const Run* run = space.begin(y, z); run != space.end(y, z); ++run)
-            for (int x = run->first; x <= run->last; ++x)
-                if (hidden_cell({x, y, z})) bits[x >> 6] &= ~(Word(1) << (x & 63));
-        const SampleId row = id_of({0, y, z}, n);
-        for (auto at = std::lower_bound(besides.begin(), besides.end(), row); at != besides.end() && *at < row + n;
-             ++at)
-            bits[(*at - row) >> 6] &= ~(Word(1) << ((*at - row) & 63));
-    }
-
     const Rays& rays;
     const Volume& space;
     const Sight& sight;
@@ -118,17 +100,10 @@ std::vector<SampleId> shallow_places(const Rays& rays, const SliceHits& along_z,
 }
 
 Volume complement(const Volume& outside) {
-    std::vector<SliceRuns> slices(outside.n);
-    tbb::parallel_for(0, outside.n, [&](int z) {
-        std::vector<Word> bits(words_of(outside.n));
-        for (int y = 0; y < outside.n; ++y) {
-            std::fill(bits.begin(), bits.end(), 0);
-            outside.set_bits(y, z, bits.data());
-            for (Word& word : bits) word = ~word;
-            slices[z].add_row(bits.data(), outside.n);
-        }
+    return make_volume(outside.n, [&](int y, int z, Word* bits) {
+        outside.set_bits(y, z, bits);
+        for (std::size_t w = 0; w < words_of(outside.n); ++w) bits[w] = ~bits[w];
     });
-    return Volume(outside.n, slices);
 }
 
 } // namespace

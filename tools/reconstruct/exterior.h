@@ -11,8 +11,8 @@ struct Exterior {
     std::size_t hidden_samples = 0; ///< free and reached, but out of sight
 };
 
-/// Needs complete layers. Outside is what free space reaches from the border of the box through passages wider
-/// than 2 `close_gaps` + 1 samples and what can be seen from far away (sight.h). 0 keeps every passage.
+/// Needs complete layers. Outside is what free space reaches from the border of the box through passages
+/// wider than 2 `close_gaps` + 1 samples and what can be seen from far away (sight.h). 0 keeps every passage.
 Exterior find_exterior(const Rays& rays, double close_gaps);
 
 } // namespace glcast

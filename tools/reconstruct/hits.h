@@ -27,6 +27,14 @@ struct AxisHits {
     float back(std::size_t pixel) const { return hit(pixel) ? depth[start[pixel + 1] - 1] : -no_depth; }
 };
 
+inline constexpr std::uint32_t no_hit = ~0u;
+
+/// Pixel of the n x n image along axis `a` that holds sample s.
+inline std::size_t pixel_of(int a, const std::array<int, 3>& s, int n) {
+    const ImageAxes image = image_axes(static_cast<Axis>(a));
+    return std::size_t(s[image.v]) * n + s[image.u];
+}
+
 /// Unit vector in 32 bits (octahedral, 3e-5 radians); never 0.
 std::uint32_t pack_normal(const glm::vec3& unit);
 glm::vec3 unpack_normal(std::uint32_t packed);
@@ -42,7 +50,7 @@ class HitBuilder {
     void add(const ViewImage& image);
     /// Throws std::runtime_error when one of the six outer views is missing. Leaves the builder empty.
     std::array<AxisHits, 3> finish();
-    int resolution() const { return n; } ///< 0 before the first image
+    int resolution() const { return n; }       ///< 0 before the first image
     bool has_layers() const { return layers; } ///< an image of what lies behind the first hit was given
 
   private:

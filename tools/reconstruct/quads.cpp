@@ -102,7 +102,8 @@ int better_diagonal(const Quad& quad, const Crossing& crossing) {
 
 class Layer {
   public:
-    Layer(const EdgeCrossings& crossings, const CellGrid& grid, const std::vector<glm::dvec3>& positions, double rounding)
+    Layer(const EdgeCrossings& crossings, const CellGrid& grid, const std::vector<glm::dvec3>& positions,
+          double rounding)
         : crossings(crossings), grid(grid), positions(positions), clear(clearance + 2 * rounding) {}
     void run(int z, Triangle* to, std::uint32_t* first_quad) {
         out = to;

@@ -14,7 +14,7 @@ struct QuadReport {
     std::vector<std::uint32_t> suspects;
     /// The quads owned by the cells of row r are first_quad[r] .. first_quad[r + 1] (CellGrid::row).
     std::vector<std::uint32_t> first_quad;
-    float stray = 0; ///< samples that a vertex is outside its cell along an axis, at most
+    float stray = 0;                   ///< samples that a vertex is outside its cell along an axis, at most
     double unsupported_area_share = 0; ///< of the area of all quads
 };
 

@@ -11,14 +11,11 @@ namespace glcast {
 struct Rays {
     int n = 0;
     std::array<AxisHits, 3> axis;
-    Volume volume; ///< filled samples; a sheet's own among them
+    Volume volume;                ///< filled samples; a sheet's own among them
     float half_thickness = 0.05f; ///< of a sheet without thickness, samples
 
     /// Pixel of the image along `a` that holds sample s.
-    std::size_t pixel(int a, const std::array<int, 3>& s) const {
-        const ImageAxes image = image_axes(static_cast<Axis>(a));
-        return std::size_t(s[image.v]) * n + s[image.u];
-    }
+    std::size_t pixel(int a, const std::array<int, 3>& s) const { return pixel_of(a, s, n); }
     bool inside(const std::array<int, 3>& s) const {
         return s[0] >= 0 && s[1] >= 0 && s[2] >= 0 && s[0] < n && s[1] < n && s[2] < n;
     }

@@ -25,7 +25,8 @@ enum class ExteriorRule {
 struct ReconstructOptions {
     SurfaceMethod method = SurfaceMethod::contour;
     ExteriorRule exterior = ExteriorRule::layers;
-    bool complete_layers = false; ///< the images hold every surface; else the rule is `axes` whatever was asked
+    bool complete_layers =
+        false;             ///< the images hold every surface; else the rule is `axes` whatever was asked
     double close_gaps = 1; ///< radius in samples: passages up to 2 r + 1 wide are closed; 0 keeps every gap
     double sheet_thickness = 0.1;   ///< samples, 0.01..1: between the sides of a surface without thickness
     bool geometric_normals = false; ///< recompute normals from the surface instead of those drawn
@@ -35,19 +36,21 @@ struct ReconstructReport {
     ExteriorRule exterior = ExteriorRule::axes; ///< the rule that was used
     std::size_t hidden_samples = 0;             ///< free, but nobody outside can see them, and so filled
     std::size_t filled_samples = 0;
-    std::size_t thin_samples = 0;           ///< filled only because a sheet passes by
-    std::size_t crossings = 0;              ///< lattice edges that change sign
-    std::size_t unsupported_crossings = 0;  ///< of these, how many no ray saw
-    double unsupported_area_share = 0;      ///< of the surface's area, what lies about such crossings
-    std::size_t vertices_without_pixel = 0; ///< colour of a neighbour on the surface, normal of the surface itself
+    std::size_t thin_samples = 0;          ///< filled only because a sheet passes by
+    std::size_t crossings = 0;             ///< lattice edges that change sign
+    std::size_t unsupported_crossings = 0; ///< of these, how many no ray saw
+    double unsupported_area_share = 0;     ///< of the surface's area, what lies about such crossings
+    std::size_t vertices_without_pixel =
+        0; ///< colour of a neighbour on the surface, normal of the surface itself
     MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };
 
-/// `hits`: the images of a capture, all six outer views among them. The mesh is a closed two-manifold, asserted
-/// before it is returned (throws std::logic_error, which is a bug), and does not pass through itself, in capture-frame units,
-/// normals unit length, colours as drawn. Throws std::runtime_error when a view is missing or nothing is filled. The same images give
-/// the same mesh, bit for bit, whatever the number of threads.
+/// `hits`: the images of a capture, all six outer views among them. The mesh is a closed two-manifold,
+/// asserted before it is returned (throws std::logic_error, which is a bug), and does not pass through
+/// itself, in capture-frame units, normals unit length, colours as drawn. Throws std::runtime_error when a
+/// view is missing or nothing is filled. The same images give the same mesh, bit for bit, whatever the number
+/// of threads.
 Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& options,
                  ReconstructReport* report = nullptr);
 

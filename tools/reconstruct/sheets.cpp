@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace glcast {
 namespace {
@@ -50,8 +49,8 @@ bool is_sliver(const Rays& rays, const Volume& filled, const Stretch& s) {
     return false;
 }
 
-/// The hits of an edge with two empty ends that are no body's surface. A hit at a sample stands on the edges on both sides of it;
-/// is a body behind the other one, then the hit is its.
+/// The hits of an edge with two empty ends that are no body's surface. A hit at a sample stands on the edges
+/// on both sides of it; is a body behind the other one, then the hit is its.
 bool find_stretch(const Rays& rays, const Volume& filled, Stretch& s) {
     const AxisHits& hits = rays.axis[s.axis];
     const std::size_t p = rays.pixel(s.axis, s.low);
@@ -118,11 +117,10 @@ class Finder {
 } // namespace
 
 std::vector<SampleId> sheet_samples(const Rays& rays, const SliceHits& along_z, const Volume& filled) {
-    constexpr int slab = 16;
-    std::vector<std::vector<SampleId>> found((rays.n + slab - 1) / slab);
-    tbb::parallel_for(0, int(found.size()), [&](int i) {
+    std::vector<std::vector<SampleId>> found(rays.n);
+    for_slabs(rays.n, [&](int z0, int z1) {
         Finder finder(rays, along_z, filled);
-        for (int z = i * slab; z < std::min(rays.n, (i + 1) * slab); ++z) finder.slice(z, found[i]);
+        for (int z = z0; z < z1; ++z) finder.slice(z, found[z]);
     });
     std::vector<SampleId> out;
     for (const auto& slice : found) out.insert(out.end(), slice.begin(), slice.end());

@@ -33,7 +33,8 @@ BitCube free_cells(const Volume& free, int m, int scale) {
         std::vector<int> covered(m);
         for (int cy = 0; cy < m; ++cy) {
             std::fill(covered.begin(), covered.end(), 0);
-            const int rows_y = std::min(scale, free.n - cy * scale), rows_z = std::min(scale, free.n - cz * scale);
+            const int rows_y = std::min(scale, free.n - cy * scale),
+                      rows_z = std::min(scale, free.n - cz * scale);
             for (int k = 0; k < rows_y * rows_z; ++k) {
                 const int y = cy * scale + k % rows_y, z = cz * scale + k / rows_y;
                 for (const Run* run = free.begin(y, z); run != free.end(y, z); ++run) {
@@ -107,11 +108,13 @@ void move_row(const Word* in, Word* out, std::size_t words, int m, int d) {
     if (d < 0) set_bit(out, m - 1);
 }
 
-/// Marks the cells from which a straight line leads out through free cells. The line goes one slice a step; slices
-/// follow one another along y or z, and step_x and step_other are its slopes along x and the third axis.
+/// Marks the cells from which a straight line leads out through free cells. The line goes one slice a step;
+/// slices follow one another along y or z, and step_x and step_other are its slopes along x and the third
+/// axis.
 void look(const BitCube& free, bool along_z, double step_x, double step_other, int sign, Counter& seen) {
     const int m = free.m;
-    const std::size_t words = free.words, a_slice = along_z ? words * m : words, a_row = along_z ? words : words * m;
+    const std::size_t words = free.words, a_slice = along_z ? words * m : words,
+                      a_row = along_z ? words : words * m;
     std::vector<Word> before(words * m, ~Word(0)), here(words * m), moved(words);
     for (int k = 0; k < m; ++k) {
         const int slice = sign > 0 ? k : m - 1 - k;
@@ -143,7 +146,9 @@ glm::dvec3 direction(int i) {
 class Looking {
   public:
     explicit Looking(const BitCube& free)
-        : upright(free), lying(turned(free)), counts([m = free.m] { return Counts{Counter(m), Counter(m)}; }) {}
+        : upright(free), lying(turned(free)), counts([m = free.m] {
+              return Counts{Counter(m), Counter(m)};
+          }) {}
     void round(int first) {
         tbb::parallel_for(first, first + directions_a_round, [&](int i) {
             const glm::dvec3 d = direction(i);
@@ -157,8 +162,8 @@ class Looking {
                 look(upright, true, d.x / size.z, d.y / size.z, d.z > 0 ? 1 : -1, count.upright);
         });
     }
-    /// Free cells that see out in fewer than `enough` directions, ascending. Each counter is exact as far as that, so
-    /// it does not matter which thread looked in which direction.
+    /// Free cells that see out in fewer than `enough` directions, ascending. Each counter is exact as far as
+    /// that, so it does not matter which thread looked in which direction.
     std::vector<std::uint32_t> dim_cells() const {
         Counter sum(upright.m), sideways(upright.m);
         for (const Counts& count : counts) {
@@ -202,8 +207,8 @@ template <class Visit> void for_neighbours(const Sight& sight, std::uint32_t cel
     }
 }
 
-/// What a cell adds to the openings and walls of its chamber, in faces. Cells beside a wall are not free as a whole, so an
-/// opening looks narrower than it is, by about a cell and a half on each side.
+/// What a cell adds to the openings and walls of its chamber, in faces. Cells beside a wall are not free as a
+/// whole, so an opening looks narrower than it is, by about a cell and a half on each side.
 struct Faces {
     int open = 0, walls = 0;
     double opening() const { return open ? open + 1.5 * walls : 0; }

@@ -2,8 +2,8 @@
 //
 // On a coarse grid of at most 128 cells an axis, a cell sees out in a direction when a straight line of free
 // cells leads from it out of the box. Cells that see out in few of 192 directions form chambers. A chamber is
-// hidden when its openings, where it borders on cells that see more, are small against its walls: it opens or closes
-// as a whole, so no single beam through a slit carves a crevice, and blind ends of bores stay open.
+// hidden when its openings, where it borders on cells that see more, are small against its walls: it opens or
+// closes as a whole, so no single beam through a slit carves a crevice, and blind ends of bores stay open.
 #pragma once
 #include <optional>
 
@@ -27,8 +27,8 @@ struct Sight {
     }
 };
 
-/// `free`: samples that are free and connected with the border of the box, off every wall. Nothing when all of it
-/// is open.
+/// `free`: samples that are free and connected with the border of the box, off every wall. Nothing when all
+/// of it is open.
 std::optional<Sight> find_sight(const Volume& free);
 
 } // namespace glcast

@@ -1,16 +1,10 @@
 #include "tools/reconstruct/space.h"
 
 #include <algorithm>
-#include <tbb/parallel_for.h>
+#include <optional>
 
 namespace glcast {
 namespace {
-
-constexpr int slab = 16; // slices a task takes
-
-template <class Task> void for_slabs(int n, Task task) {
-    tbb::parallel_for(0, (n + slab - 1) / slab, [&](int i) { task(i * slab, std::min(n, (i + 1) * slab)); });
-}
 
 /// Ones move to all samples within so many steps along x and along y; `bits` holds n rows of `words`.
 void spread(std::vector<Word>& bits, int n, std::size_t words, int along_x, int along_y) {
@@ -31,10 +25,10 @@ void spread(std::vector<Word>& bits, int n, std::size_t words, int along_x, int 
     }
 }
 
-/// Samples of a slice near walls: what a wall across an axis touches, `radius` samples further to its sides, so that the
-/// ends of sheets count, and `radius` - 1 along the axis.
+/// Samples of a slice near walls: what a wall across an axis touches, `radius` samples further to its sides,
+/// so that the ends of sheets count, and `radius` - 1 along the axis.
 struct NearWalls {
-    std::vector<Word> of_slice;      ///< of walls across x and y; goes `radius` slices up and down
+    std::vector<Word> of_slice;       ///< of walls across x and y; goes `radius` slices up and down
     std::vector<Word> between_slices; ///< of walls across z; goes one slice less
     std::vector<Word> x_walls;
 
@@ -110,7 +104,7 @@ void join_rows(const Volume& space, std::size_t row, std::size_t other, const Wo
 /// The slices z - 1, z, z + 1 of a set as bits.
 class Window {
   public:
-    explicit Window(const Volume& space) : space(space), words(words_of(space.n)) {
+    explicit Window(const Volume& space) : words(words_of(space.n)), space(space) {
         for (auto& slice : slices) slice.resize(words * (space.n + 2));
     }
     void load(int z) {
@@ -124,6 +118,7 @@ class Window {
     }
     /// y from -1 to n, dz from -1 to 1.
     const Word* row(int y, int dz) const { return &slices[dz + 1][words * (y + 1)]; }
+    const std::size_t words;
 
   private:
     void fill(int z, std::vector<Word>& out) const {
@@ -132,11 +127,6 @@ class Window {
         for (int y = 0; y < space.n; ++y) space.set_bits(y, z, &out[words * (y + 1)]);
     }
     const Volume& space;
-
-  public:
-    const std::size_t words;
-
-  private:
     int loaded = -9;
     std::vector<Word> slices[3];
 };
@@ -154,8 +144,22 @@ Word reached(const Window& in, const Walls& walls, int y, std::size_t w) {
     return out;
 }
 
-void cut_to(std::vector<Word>& row, int n) {
-    if (n & 63) row.back() &= word_range(0, (n & 63) - 1);
+/// Calls visit(y, z, row of the set, samples one step from it) for every row, slabs of them on all cores.
+template <class Visit>
+void for_reached_rows(const Rays& rays, const SliceHits& along_z, const Volume& space, Visit visit) {
+    for_slabs(rays.n, [&](int z0, int z1) {
+        Walls walls(rays, along_z);
+        Window in(space);
+        std::vector<Word> row(in.words);
+        for (int z = z0; z < z1; ++z) {
+            walls.load(z);
+            in.load(z);
+            for (int y = 0; y < rays.n; ++y) {
+                for (std::size_t w = 0; w < in.words; ++w) row[w] = reached(in, walls, y, w);
+                visit(y, z, in.row(y, 0), row);
+            }
+        }
+    });
 }
 
 } // namespace
@@ -236,7 +240,8 @@ Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks) {
     for (std::size_t row = 0; row + 1 < space.start.size(); ++row) {
         for (std::uint32_t i = space.start[row]; i < space.start[row + 1]; ++i) {
             if (!marks[i]) continue;
-            const bool joins = out.runs.size() > out.start.back() && out.runs.back().last + 1 == space.runs[i].first;
+            const bool joins =
+                out.runs.size() > out.start.back() && out.runs.back().last + 1 == space.runs[i].first;
             if (joins)
                 out.runs.back().last = space.runs[i].last;
             else
@@ -248,45 +253,23 @@ Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks) {
 }
 
 Volume grown(const Rays& rays, const SliceHits& along_z, const Volume& space) {
-    const int n = rays.n;
-    std::vector<SliceRuns> slices(n);
-    for_slabs(n, [&](int z0, int z1) {
-        Walls walls(rays, along_z);
-        Window in(space);
-        std::vector<Word> row(in.words);
-        for (int z = z0; z < z1; ++z) {
-            walls.load(z);
-            in.load(z);
-            for (int y = 0; y < n; ++y) {
-                for (std::size_t w = 0; w < in.words; ++w)
-                    row[w] = in.row(y, 0)[w] | reached(in, walls, y, w);
-                slices[z].add_row(row.data(), n);
-            }
-        }
+    std::vector<SliceRuns> slices(rays.n);
+    for_reached_rows(rays, along_z, space, [&](int, int z, const Word* here, std::vector<Word>& row) {
+        for (std::size_t w = 0; w < row.size(); ++w) row[w] |= here[w];
+        slices[z].add_row(row.data(), rays.n);
     });
-    return Volume(n, slices);
+    return Volume(rays.n, slices);
 }
 
-std::vector<std::uint64_t> beside(const Rays& rays, const SliceHits& along_z, const Volume& space) {
+std::vector<SampleId> beside(const Rays& rays, const SliceHits& along_z, const Volume& space) {
     const int n = rays.n;
-    std::vector<std::vector<std::uint64_t>> slices(n);
-    for_slabs(n, [&](int z0, int z1) {
-        Walls walls(rays, along_z);
-        Window in(space);
-        std::vector<Word> row(in.words);
-        for (int z = z0; z < z1; ++z) {
-            walls.load(z);
-            in.load(z);
-            for (int y = 0; y < n; ++y) {
-                for (std::size_t w = 0; w < in.words; ++w)
-                    row[w] = reached(in, walls, y, w) & ~in.row(y, 0)[w];
-                cut_to(row, n);
-                for (int x = next_bit(row.data(), 0, n, true); x < n; x = next_bit(row.data(), x + 1, n, true))
-                    slices[z].push_back((std::uint64_t(z) * n + y) * n + x);
-            }
-        }
+    std::vector<std::vector<SampleId>> slices(n);
+    for_reached_rows(rays, along_z, space, [&](int y, int z, const Word* here, std::vector<Word>& row) {
+        for (std::size_t w = 0; w < row.size(); ++w) row[w] &= ~here[w];
+        for (int x = next_bit(row.data(), 0, n, true); x < n; x = next_bit(row.data(), x + 1, n, true))
+            slices[z].push_back(id_of({x, y, z}, n));
     });
-    std::vector<std::uint64_t> out;
+    std::vector<SampleId> out;
     for (const auto& slice : slices) out.insert(out.end(), slice.begin(), slice.end());
     return out;
 }

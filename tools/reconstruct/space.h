@@ -9,8 +9,8 @@ namespace glcast {
 /// Samples at least `radius` samples away from every wall (0: all samples), as runs that no wall divides.
 Volume wide_space(const Rays& rays, const SliceHits& along_z, int radius);
 
-/// By run: is it connected with the border of the box? Runs of `space` on two rows are joined where they overlap and, when
-/// `radius` is 0, no wall divides them there.
+/// By run: is it connected with the border of the box? Runs of `space` on two rows are joined where they
+/// overlap and, when `radius` is 0, no wall divides them there.
 std::vector<std::uint8_t> connected_to_border(const Rays& rays, const SliceHits& along_z, const Volume& space,
                                               int radius);
 
@@ -20,7 +20,7 @@ Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks);
 /// `space` and the samples one step from it across an edge without a wall.
 Volume grown(const Rays& rays, const SliceHits& along_z, const Volume& space);
 
-/// Samples z, y, x packed as (z * n + y) * n + x that grown() would add, ascending.
-std::vector<std::uint64_t> beside(const Rays& rays, const SliceHits& along_z, const Volume& space);
+/// The samples that grown() would add, ascending.
+std::vector<SampleId> beside(const Rays& rays, const SliceHits& along_z, const Volume& space);
 
 } // namespace glcast

@@ -6,15 +6,6 @@
 
 namespace glcast {
 
-using SampleId = std::uint64_t; ///< (z * n + y) * n + x
-
-inline SampleId id_of(const std::array<int, 3>& s, int n) {
-    return (SampleId(s[2]) * n + s[1]) * n + s[0];
-}
-inline std::array<int, 3> sample_of(SampleId id, int n) {
-    return {int(id % n), int(id / n % n), int(id / n / n)};
-}
-
 /// Does a surface cross the edge from s to the next sample along the axis?
 inline bool has_wall(const Rays& rays, std::array<int, 3> s, int axis) {
     const AxisHits& hits = rays.axis[axis];
@@ -37,7 +28,8 @@ template <class Visit> void for_steps(const Rays& rays, const std::array<int, 3>
         }
 }
 
-/// A level for each of some samples: open addressing, which is several times as fast here as std::unordered_map.
+/// A level for each of some samples: open addressing, which is several times as fast here as
+/// std::unordered_map.
 class SampleLevels {
   public:
     static constexpr int none = -1;
@@ -83,8 +75,8 @@ class SampleLevels {
     std::size_t count = 0;
 };
 
-/// Steps from a set, breadth first; `first` are the samples at level `level`. Goes on to samples that allowed(s)
-/// and up to `most`. Returns the level of each.
+/// Steps from a set, breadth first; `first` are the samples at level `level`. Goes on to samples that
+/// allowed(s) and up to `most`. Returns the level of each.
 template <class Allowed>
 SampleLevels flood(const Rays& rays, std::vector<SampleId> first, int level, int most, Allowed allowed) {
     SampleLevels found;

@@ -62,7 +62,8 @@ template <class CrossingOf> Patches patches_of(const Cell& cell, int y, int z, C
 
 glm::dvec3 origin_of(const Cell& cell, int y, int z) { return {cell.x - 1, y - 1, z - 1}; }
 
-/// The cells of a row; `owners` are the rows of the cells that own their edges: bit 0 one on in y, bit 1 in z.
+/// The cells of a row; `owners` are the rows of the cells that own their edges: bit 0 one on in y, bit 1 in
+/// z.
 void place_row(const EdgeCrossings& crossings, const CellGrid& grid, int y, int z,
                std::vector<glm::dvec3>& positions) {
     RowCursor owners[4] = {{grid, y, z}, {grid, y + 1, z}, {grid, y, z + 1}, {grid, y + 1, z + 1}};

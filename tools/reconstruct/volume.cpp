@@ -1,7 +1,6 @@
 #include "tools/reconstruct/volume.h"
 
 #include <algorithm>
-#include <tbb/parallel_for.h>
 
 namespace glcast {
 
@@ -50,21 +49,13 @@ std::size_t Volume::samples() const {
 void Volume::add(std::vector<std::uint64_t> samples) {
     if (samples.empty()) return;
     std::sort(samples.begin(), samples.end());
-    std::vector<SliceRuns> slices(n);
-    tbb::parallel_for(0, n, [&](int z) {
-        std::vector<Word> bits(words_of(n));
-        const std::uint64_t slice = std::uint64_t(n) * n;
-        auto at = std::lower_bound(samples.begin(), samples.end(), slice * z);
-        for (int y = 0; y < n; ++y) {
-            std::fill(bits.begin(), bits.end(), 0);
-            set_bits(y, z, bits.data());
-            for (const std::uint64_t end = slice * z + std::uint64_t(n) * (y + 1);
-                 at != samples.end() && *at < end; ++at)
-                set_bit(bits.data(), int(*at % n));
-            slices[z].add_row(bits.data(), n);
-        }
+    *this = make_volume(n, [&](int y, int z, Word* bits) {
+        set_bits(y, z, bits);
+        const SampleId row = id_of({0, y, z}, n);
+        for (auto at = std::lower_bound(samples.begin(), samples.end(), row);
+             at != samples.end() && *at < row + n; ++at)
+            set_bit(bits, int(*at - row));
     });
-    *this = Volume(n, slices);
 }
 
 } // namespace glcast

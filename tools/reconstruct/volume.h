@@ -1,7 +1,9 @@
 // A set of samples of the box, as runs along x: memory grows with its surface, not with the volume.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <tbb/parallel_for.h>
 #include <vector>
 
 #include "tools/reconstruct/bits.h"
@@ -39,8 +41,36 @@ class Volume {
     /// Sets the row's bits, `words_of(n)` of them; the others stay.
     void set_bits(int y, int z, Word* row) const;
     std::size_t samples() const;
-    /// Adds samples given as (z * n + y) * n + x, in any order.
+    /// Adds samples given as SampleId, in any order.
     void add(std::vector<std::uint64_t> samples);
 };
+
+/// Samples z, y, x packed as (z * n + y) * n + x.
+using SampleId = std::uint64_t;
+inline SampleId id_of(const std::array<int, 3>& s, int n) { return (SampleId(s[2]) * n + s[1]) * n + s[0]; }
+inline std::array<int, 3> sample_of(SampleId id, int n) {
+    return {int(id % n), int(id / n % n), int(id / n / n)};
+}
+
+/// Slices that a task takes: what it must load beside them costs little then.
+inline constexpr int slab = 16;
+/// Calls task(z0, z1) for slabs of slices z0 .. z1 - 1 on all cores.
+template <class Task> void for_slabs(int n, Task task) {
+    tbb::parallel_for(0, (n + slab - 1) / slab, [&](int i) { task(i * slab, std::min(n, (i + 1) * slab)); });
+}
+
+/// The samples whose bits set_row(y, z, bits) sets; the bits come empty. On all cores.
+template <class SetRow> Volume make_volume(int n, SetRow set_row) {
+    std::vector<SliceRuns> slices(n);
+    tbb::parallel_for(0, n, [&](int z) {
+        std::vector<Word> bits(words_of(n));
+        for (int y = 0; y < n; ++y) {
+            std::fill(bits.begin(), bits.end(), 0);
+            set_row(y, z, bits.data());
+            slices[z].add_row(bits.data(), n);
+        }
+    });
+    return Volume(n, slices);
+}
 
 } // namespace glcast

@@ -27,8 +27,8 @@ class SliceHits {
 /// noise, and the three axes would not agree. Samples.
 inline constexpr float on_sample = 0.004f;
 
-/// Calls cross(i) for the edges i -> i + 1 of a ray of n samples that a hit at `depth` crosses: one, or two when it is
-/// at a sample. Edges beyond the box are left out.
+/// Calls cross(i) for the edges i -> i + 1 of a ray of n samples that a hit at `depth` crosses: one, or two
+/// when it is at a sample. Edges beyond the box are left out.
 template <class Cross> void for_crossed_edges(float depth, int n, Cross cross) {
     const int low = int(std::floor(depth - on_sample)), high = int(std::floor(depth + on_sample));
     for (int i = std::max(low, 0); i <= high && i < n - 1; ++i) cross(i);
@@ -40,10 +40,10 @@ class Walls {
     Walls(const Rays& rays, const SliceHits& along_z);
     /// Cheap when z is the slice after the last one.
     void load(int z);
-    const Word* x(int y) const { return &along[0][words * y]; }     ///< to (x + 1, y, z)
+    const Word* x(int y) const { return &along[0][words * y]; }       ///< to (x + 1, y, z)
     const Word* y(int y) const { return &along[1][words * (y + 1)]; } ///< to (x, y + 1, z); y = -1 too
-    const Word* above(int y) const { return &along[2][words * y]; } ///< to (x, y, z + 1)
-    const Word* below(int y) const { return &along[3][words * y]; } ///< from (x, y, z - 1)
+    const Word* above(int y) const { return &along[2][words * y]; }   ///< to (x, y, z + 1)
+    const Word* below(int y) const { return &along[3][words * y]; }   ///< from (x, y, z - 1)
     const std::size_t words;
 
   private:
