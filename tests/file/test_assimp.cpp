@@ -56,7 +56,8 @@ void expect_same(const aiMesh& read, const Mesh& mesh) {
 
 TEST(Assimp, ReadsWhatWeWrite) {
     const Folder folder;
-    const std::vector<Level> levels = {{torus(48, 24), "level 0", 0, 0, 0.1}, {torus(12, 8), "level 1", 0.1, 0.2, 0.1}};
+    const std::vector<Level> levels = {{torus(48, 24), "level 0", {}, 0.1, {}},
+                                       {torus(12, 8), "level 1", {.mean = 0.1, .max = 0.2}, 0.1, {}}};
     for (const char* extension : {".glb", ".obj", ".ply", ".off"}) {
         SCOPED_TRACE(extension);
         const auto files = write_levels(folder / (std::string("t") + extension), levels);

@@ -26,7 +26,7 @@ std::string why_refused(const std::filesystem::path& path) {
 }
 
 Level level_of(Mesh mesh, const char* name, double error = 0) {
-    return {std::move(mesh), name, error, 2 * error, 0.125};
+    return {std::move(mesh), name, {.mean = error, .max = 2 * error}, 0.125, {}};
 }
 
 Mesh moved(Mesh mesh, const glm::dvec3& by) {
@@ -133,8 +133,8 @@ TEST(Glb, LevelsErrorsAndSample) {
     for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(read[k].name, levels[k].name);
         EXPECT_EQ(read[k].mesh.triangles, levels[k].mesh.triangles);
-        EXPECT_EQ(read[k].mean_error, levels[k].mean_error);
-        EXPECT_EQ(read[k].max_error, levels[k].max_error);
+        EXPECT_EQ(read[k].error.mean, levels[k].error.mean);
+        EXPECT_EQ(read[k].error.max, levels[k].error.max);
         EXPECT_EQ(read[k].sample, 0.125);
     }
 }

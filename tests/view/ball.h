@@ -42,7 +42,7 @@ inline void write_balls(const std::string& path) {
     levels[0].mesh = ball(1, 128), levels[0].name = "level 0";
     levels[1].mesh = ball(1, 32), levels[1].name = "level 1";
     levels[2].mesh = ball(1.2, 16), levels[2].name = "</script><script>throw 1</script>";
-    levels[2].mean_error = levels[2].max_error = 0.2;
+    levels[2].error.mean = levels[2].error.max = 0.2;
     write_levels(path, levels);
 }
 

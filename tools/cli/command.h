@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tools/mesh/check.h"
-#include "tools/mesh/mesh.h"
+#include "tools/mesh/level.h"
 
 namespace glcast::cli {
 

@@ -69,8 +69,8 @@ Json describe_level(const Level& level, const MeshCheck& check) {
     json["bounds"] = {{"lo", vector_json(lo)}, {"hi", vector_json(hi)}};
     json["hasNormals"] = !level.mesh.normals.empty();
     json["hasColours"] = !level.mesh.colours.empty();
-    json["meanError"] = level.mean_error;
-    json["maxError"] = level.max_error;
+    json["meanError"] = level.error.mean;
+    json["maxError"] = level.error.max;
     if (level.sample > 0) json["sample"] = level.sample;
     return json;
 }
@@ -119,8 +119,8 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
     std::printf("  bounds (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g)\n", lo[0].get<double>(),
                 lo[1].get<double>(), lo[2].get<double>(), hi[0].get<double>(), hi[1].get<double>(),
                 hi[2].get<double>());
-    if (level.max_error > 0)
-        std::printf("  error to level 0: mean %.6g, max %.6g\n", level.mean_error, level.max_error);
+    if (level.error.max > 0)
+        std::printf("  error to level 0: mean %.6g, max %.6g\n", level.error.mean, level.error.max);
 }
 
 int info(const Options& options) {

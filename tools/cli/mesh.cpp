@@ -127,7 +127,7 @@ void make_surface(const Options& options, Made& made) {
     const Stopwatch watch;
     made.sample = made.info.box.size / made.info.n;
     made.levels.push_back({reconstruct(std::move(hits), made.info.box, how_to(options, made.info), &made.report),
-                           "level 0", 0, 0, made.sample});
+                           "level 0", {}, made.sample, {}});
     made.checks.push_back(check_mesh(made.full(), depth(options)));
     made.surface_seconds = watch.seconds();
     require_manifold(made.checks[0], "the surface");
@@ -153,7 +153,7 @@ void make_levels(const Options& options, Made& made) {
         const std::string name = "level " + std::to_string(made.levels.size());
         made.checks.push_back(check_mesh(mesh, depth(options)));
         require_manifold(made.checks.back(), name);
-        made.levels.push_back({std::move(mesh), name, 0, 0, made.sample});
+        made.levels.push_back({std::move(mesh), name, {}, made.sample, {}});
     }
     made.simplify_seconds = watch.seconds();
 }
@@ -167,8 +167,8 @@ void measure_levels(Made& made) {
     for (std::size_t k = 1; k < made.levels.size(); ++k) {
         Level& level = made.levels[k];
         const Deviation d = deviation(made.full(), level.mesh, how);
-        level.mean_error = std::max(d.a_to_b.mean, d.b_to_a.mean);
-        level.max_error = std::max(d.a_to_b.max, d.b_to_a.max);
+        level.error.mean = std::max(d.a_to_b.mean, d.b_to_a.mean);
+        level.error.max = std::max(d.a_to_b.max, d.b_to_a.max);
     }
     made.measure_seconds = watch.seconds();
 }
@@ -186,10 +186,10 @@ Json describe_level(const Made& made, std::size_t k) {
     Json json = to_json(made.checks[k]);
     json["name"] = level.name;
     json["file"] = made.files[std::min(k, made.files.size() - 1)].string();
-    json["meanError"] = level.mean_error;
-    json["maxError"] = level.max_error;
-    json["meanErrorSamples"] = level.mean_error / made.sample;
-    json["maxErrorSamples"] = level.max_error / made.sample;
+    json["meanError"] = level.error.mean;
+    json["maxError"] = level.error.max;
+    json["meanErrorSamples"] = level.error.mean / made.sample;
+    json["maxErrorSamples"] = level.error.max / made.sample;
     return json;
 }
 
@@ -231,10 +231,10 @@ void say_made(const Options& options, const Made& made) {
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         const Level& level = made.levels[k];
         std::string line = level.name + ": " + summary(made.checks[k]);
-        if (level.max_error > 0)
-            line += ", error mean " + number(level.mean_error) + " (" +
-                    number(level.mean_error / made.sample) + " samples), max " + number(level.max_error) +
-                    " (" + number(level.max_error / made.sample) + ")";
+        if (level.error.max > 0)
+            line += ", error mean " + number(level.error.mean) + " (" +
+                    number(level.error.mean / made.sample) + " samples), max " + number(level.error.max) +
+                    " (" + number(level.error.max / made.sample) + ")";
         say(line);
     }
     for (const auto& file : made.files)

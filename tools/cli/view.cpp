@@ -69,7 +69,7 @@ std::vector<Level> gather_levels(const std::vector<std::string>& files) {
     std::vector<Level> all;
     for (const std::string& file : files)
         for (Level& level : levels_of(file)) {
-            level.mean_error = level.max_error = 0;
+            level.error = {};
             level.name = std::filesystem::path(file).filename().string() +
                          (level.name.empty() ? "" : ": " + level.name);
             all.push_back(std::move(level));
@@ -82,12 +82,12 @@ std::vector<Level> gather_levels(const std::vector<std::string>& files) {
 
 /// Against level 0, both ways, the larger, as `glcast mesh` measures; where the file does not tell.
 void measure(const Mesh& full, PageLevel& level) {
-    if (level.max_error > 0) return;
+    if (level.error.max > 0) return;
     DeviationOptions how;
     how.visible_only = false;
     const Deviation d = deviation(full, *level.mesh, how);
-    level.mean_error = std::max(d.a_to_b.mean, d.b_to_a.mean);
-    level.max_error = std::max(d.a_to_b.max, d.b_to_a.max);
+    level.error.mean = std::max(d.a_to_b.mean, d.b_to_a.mean);
+    level.error.max = std::max(d.a_to_b.max, d.b_to_a.max);
 }
 
 std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
@@ -98,8 +98,7 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
         one.mesh = &level.mesh;
         one.name = level.name.empty() ? "level " + std::to_string(described.size() - 1) : level.name;
         one.glb_bytes = glb_size(level);
-        one.mean_error = level.mean_error;
-        one.max_error = level.max_error;
+        one.error = level.error;
         if (&level == &levels[0])
             one.vertex_distance.assign(level.mesh.positions.size(), 0);
         else {
@@ -131,8 +130,8 @@ void print_page(const Options& options, const PageInput& input, const Page& page
                                   {"glbBytes", level.glb_bytes},
                                   {"pageBytes", page.level_bytes[k]},
                                   {"inPage", page.level_bytes[k] > 0},
-                                  {"meanError", level.mean_error},
-                                  {"maxError", level.max_error}});
+                                  {"meanError", level.error.mean},
+                                  {"maxError", level.error.max}});
     }
     print_json(json);
 }

@@ -146,8 +146,8 @@ class GlbReader {
             return mesh.extras.IsObject() && mesh.extras.Has(name) ? mesh.extras.Get(name).GetNumberAsDouble()
                                                                    : 0.0;
         };
-        level.mean_error = std::max(level.mean_error, number("meanError"));
-        level.max_error = std::max(level.max_error, number("maxError"));
+        level.error.mean = std::max(level.error.mean, number("meanError"));
+        level.error.max = std::max(level.error.max, number("maxError"));
         level.sample = std::max(level.sample, number("sample"));
         for (const tinygltf::Primitive& primitive : mesh.primitives) add_primitive(level.mesh, primitive, m);
     }

@@ -124,8 +124,8 @@ void GlbBuilder::add_level(const Level& level, const glm::dvec3& origin) {
     mesh.name = level.name;
     mesh.primitives.push_back(primitive);
     mesh.extras = Value(Value::Object{{"triangles", Value(static_cast<int>(level.mesh.triangles.size()))},
-                                      {"meanError", Value(level.mean_error)},
-                                      {"maxError", Value(level.max_error)},
+                                      {"meanError", Value(level.error.mean)},
+                                      {"maxError", Value(level.error.max)},
                                       {"sample", Value(level.sample)}});
     model.meshes.push_back(mesh);
     tinygltf::Node node;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/output_file.h"
-#include "tools/mesh/mesh.h"
+#include "tools/mesh/level.h"
 
 namespace glcast::format {
 

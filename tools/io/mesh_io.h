@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "tools/mesh/mesh.h"
+#include "tools/mesh/level.h"
 
 namespace glcast {
 

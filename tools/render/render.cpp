@@ -183,8 +183,8 @@ std::string caption(const Level& level) {
     std::string text = level.name + (level.name.empty() ? "" : ": ") + std::to_string(triangles) +
                        (triangles == 1 ? " triangle" : " triangles");
     char errors[80];
-    std::snprintf(errors, sizeof errors, ", mean error %.3g, max %.3g", level.mean_error, level.max_error);
-    return level.max_error > 0 ? text + errors : text;
+    std::snprintf(errors, sizeof errors, ", mean error %.3g, max %.3g", level.error.mean, level.error.max);
+    return level.error.max > 0 ? text + errors : text;
 }
 
 struct Layout {

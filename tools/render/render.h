@@ -5,14 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "tools/mesh/mesh.h"
+#include "tools/mesh/level.h"
+#include "tools/mesh/picture.h"
 
 namespace glcast {
-
-struct Picture {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb; ///< row 0 on top
-};
 
 /// A contact sheet: a row per level, in it the six sides (-x +x -y +y -z +z: from where it is seen) and two
 /// opposite corners, each `size` pixels square, lit from the camera, colours as drawn, y up (in the y views

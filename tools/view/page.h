@@ -7,7 +7,7 @@
 
 #include "capture/capture_file.h"
 #include "capture/view_image.h"
-#include "tools/mesh/mesh.h"
+#include "tools/mesh/level.h"
 
 namespace glcast {
 
@@ -16,7 +16,7 @@ struct PageLevel {
     const Mesh* mesh = nullptr; ///< outlives make_page()
     std::string name;
     std::uint64_t glb_bytes = 0;           ///< of the level as a .glb of its own
-    double mean_error = 0, max_error = 0;  ///< to level 0 and from it, over both surfaces
+    LevelError error;
     std::vector<double> vertex_distance;   ///< of each vertex to the surface of level 0
 };
 

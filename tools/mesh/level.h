@@ -1,0 +1,27 @@
+// What a file of levels of detail holds.
+#pragma once
+#include <string>
+
+#include "tools/mesh/mesh.h"
+#include "tools/mesh/texture.h"
+
+namespace glcast {
+
+/// How far a level is from level 0: measured over both surfaces, both ways, the larger. Nothing here is an estimate.
+struct LevelError {
+    double mean = 0, p999 = 0, max = 0; ///< distance, model units; p999: 99.9 % of the points are nearer
+    double normal_mean_degrees = 0;     ///< between the normals as shown (of vertices, or of the texture)
+    double colour_mean = 0, colour_p999 = 0; ///< largest difference of a channel, display values, 0..1
+    double unsupported_area_share = 0;  ///< of level 0: surface that no ray saw, 0..1
+};
+
+/// One level of detail, finest first.
+struct Level {
+    Mesh mesh;
+    std::string name; ///< "level 0", ...
+    LevelError error{}; ///< zero for level 0, but for its unsupported area
+    double sample = 0; ///< lattice spacing of the capture it was made from, model units; 0 when unknown
+    Texture texture{}; ///< empty: colours and normals of the vertices are all there is
+};
+
+} // namespace glcast
