@@ -6,6 +6,9 @@ namespace glcast {
 
 namespace {
 
+// It reads the colour, whose shade model then cuts quads into triangles as it does in the colour pass: Mesa
+// takes a quad strip in flat shading apart otherwise than in smooth shading, and other triangles have other
+// depths.
 constexpr const char* source = R"(#version 110
 #extension GL_ARB_texture_rectangle : require
 uniform sampler2DRect range;
@@ -15,7 +18,7 @@ void main() {
     float apart = min(same.x + same.y * (abs(dFdx(z)) + abs(dFdy(z))), same.z);
     vec3 r = texture2DRect(range, gl_FragCoord.xy).xyz;
     if (z <= r.y || z - r.x <= apart || r.z - z <= apart) discard;
-    gl_FragColor = vec4(1.0);
+    gl_FragColor = gl_Color;
 }
 )";
 
