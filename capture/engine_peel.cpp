@@ -105,11 +105,14 @@ bool PeelShader::make_texture() {
     return true;
 }
 
-void PeelShader::upload(const std::vector<PeelRange>& ranges) const {
+void PeelShader::upload(const std::vector<PeelRange>& ranges, const PixelRect& only) const {
     reset_unpack_state(gl);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, n);
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_RECTANGLE, texture);
-    gl.TexSubImage2D(GL_TEXTURE_RECTANGLE, 0, 0, 0, n, n, GL_RGB, GL_FLOAT, ranges.data());
+    gl.TexSubImage2D(GL_TEXTURE_RECTANGLE, 0, only.x0, only.y0, only.x1 - only.x0, only.y1 - only.y0, GL_RGB,
+                     GL_FLOAT, ranges.data() + std::size_t(only.y0) * n + only.x0);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     gl.ActiveTexture(GL_TEXTURE0);
 }
 

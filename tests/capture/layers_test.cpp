@@ -70,6 +70,18 @@ TEST_F(LayersOf, NothingIsDrawnTwice) {
     EXPECT_EQ(cast.report.layer_draws, 3 * (4 * 3 + 1));
 }
 
+/// What is seen of the inner ones shrinks and moves from layer to layer.
+void draw_leaning_bodies(const GlTable& gl) {
+    set_lit(gl);
+    gl.Rotated(40, 1, 0.3, 0.2);
+    set_diffuse(gl, red);
+    draw_box(gl, glm::dvec3(-0.55), glm::dvec3(0.55));
+    set_diffuse(gl, green);
+    draw_sphere(gl, glm::dvec3(0.2, 0.1, 0.15), 0.3);
+    set_diffuse(gl, blue);
+    draw_box(gl, {0.2, 0.1, 0.1}, {0.3, 0.2, 0.2});
+}
+
 /// A gear's walls, in the primitive and the shading asked for.
 void draw_rings(const GlTable& gl, GLenum primitive, GLenum shading) {
     set_lit(gl);
@@ -121,6 +133,24 @@ TEST_F(LayersOf, ImagesComeAxisByAxis) {
             EXPECT_EQ(cast.images.at(at++).view, (View{axis, Side::minus, layer}));
     }
     EXPECT_EQ(cast.images.size(), at);
+}
+
+/// The receiver may leave an image where it is; its memory then holds the next one.
+TEST_F(LayersOf, ImagesThatAreNotTakenAreTheSame) {
+    const Cast taken = cast_of(draw_leaning_bodies);
+    std::vector<ViewImage> copies;
+    run_capture(gl, draw_leaning_bodies, options, [&](ViewImage&& image) {
+        copies.push_back(std::as_const(image));
+        return true;
+    });
+    ASSERT_EQ(copies.size(), taken.images.size());
+    EXPECT_GE(taken.report.layer_count[0], 4);
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+        EXPECT_EQ(copies[k].view, taken.images[k].view);
+        EXPECT_EQ(copies[k].depth, taken.images[k].depth);
+        EXPECT_EQ(copies[k].colour, taken.images[k].colour);
+        EXPECT_EQ(copies[k].normal, taken.images[k].normal);
+    }
 }
 
 TEST_F(LayersOf, AsManyAsAreAskedFor) {
@@ -376,6 +406,20 @@ class Leaves : public LayersOf {
 };
 
 TEST_F(Leaves, HolesOfTexturesAreNoHits) { expect_leaves(); }
+
+/// More holes than hits in the first layer: it is then tested whether the driver is to be trusted, in the
+/// same target.
+TEST_F(Leaves, MostlyHolesHaveNormalsToo) {
+    const Cast cast = complete_cast_of([&](const GlTable& table) {
+        table.MatrixMode(GL_TEXTURE);
+        table.Translated(0.25, 0, 0);
+        table.Scaled(1.5, 1, 1);
+        table.MatrixMode(GL_MODELVIEW);
+        leaves(table, {{left, 0.3}});
+    });
+    EXPECT_EQ(inner(cast, -0.55), std::vector<double>{0.3});
+    EXPECT_EQ(inner(cast, -0.2), std::vector<double>{});
+}
 
 TEST_F(Leaves, HolesOfTexturesAreNoHitsInSlabsEither) {
     options.layer_method = LayerMethod::slab;
