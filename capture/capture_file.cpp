@@ -167,6 +167,10 @@ struct CaptureWriter::Impl {
     OutputFile file;
     std::vector<Part> parts;
     std::size_t header_room = 0;
+    const std::vector<exr::Channel> channels{std::begin(channel_table), std::end(channel_table)};
+    std::vector<std::vector<float>> planes; ///< of the band that is compressed
+    /// Chunks that show nothing, by side and number of lines: most of an inner layer is such.
+    std::map<std::pair<Side, int>, exr::Chunk> blank_chunks;
     std::string error;
 
     Impl(std::string path, const CaptureInfo& capture, int part_count)
@@ -185,6 +189,8 @@ struct CaptureWriter::Impl {
     bool check(const ViewImage& image);
     bool check_layer(const View& view);
     bool add(const ViewImage& image);
+    bool compress_lines(const ViewImage& image, int line, int lines, Part& part,
+                        std::vector<exr::Chunk>& chunks);
     bool write_chunks(const std::vector<exr::Chunk>& chunks, Part& part);
     bool count_layers(Layers layers, LayerMethod method);
     bool finish(Layers layers, LayerMethod method);
@@ -222,22 +228,40 @@ bool CaptureWriter::Impl::check(const ViewImage& image) {
     return check_layer(image.view);
 }
 
+/// Line 0 of the file is on top, row 0 of the image below.
+bool shows_nothing(const ViewImage& image, int line, int lines) {
+    const auto end = image.colour.end() - std::ptrdiff_t(line) * image.n;
+    return std::none_of(end - std::ptrdiff_t(lines) * image.n, end,
+                        [](const glm::vec4& c) { return c.a > 0; });
+}
+
+bool CaptureWriter::Impl::compress_lines(const ViewImage& image, int line, int lines, Part& part,
+                                         std::vector<exr::Chunk>& chunks) {
+    const int n = info.n;
+    chunks.clear();
+    const bool blank = shows_nothing(image, line, lines);
+    exr::Chunk& as_before = blank_chunks[{image.view.side, lines}];
+    if (blank && !as_before.bytes.empty()) {
+        chunks.push_back(as_before);
+        chunks.back().first_line = line;
+        return true;
+    }
+    for (int k = 0; k < lines; ++k) put_row(image, n - 1 - (line + k), k, planes, part);
+    std::string why;
+    if (!exr::compress_band(channels, planes, n, lines, line, compression, chunks, why)) return fail(why);
+    if (blank) as_before = chunks.front();
+    return true;
+}
+
 bool CaptureWriter::Impl::add(const ViewImage& image) {
     if (!error.empty() || !check(image)) return false;
-    const int n = info.n;
-    const std::vector<exr::Channel> channels(std::begin(channel_table), std::end(channel_table));
-    std::vector<std::vector<float>> planes(channel_count,
-                                           std::vector<float>(static_cast<std::size_t>(exr::band_lines) * n));
+    const int n = info.n, most_lines = exr::lines_per_chunk(compression);
+    planes.resize(channel_count, std::vector<float>(static_cast<std::size_t>(most_lines) * n));
     std::vector<exr::Chunk> chunks;
     Part part;
     part.view = image.view;
-    for (int line = 0; line < n; line += exr::band_lines) {
-        const int lines = std::min(exr::band_lines, n - line);
-        for (int k = 0; k < lines; ++k)
-            put_row(image, n - 1 - (line + k), k, planes, part); // line 0 is on top
-        chunks.clear();
-        std::string why;
-        if (!exr::compress_band(channels, planes, n, lines, line, compression, chunks, why)) return fail(why);
+    for (int line = 0; line < n; line += most_lines) {
+        if (!compress_lines(image, line, std::min(most_lines, n - line), part, chunks)) return false;
         if (!write_chunks(chunks, part)) return file_failed();
     }
     parts.push_back(std::move(part));

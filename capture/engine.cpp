@@ -93,10 +93,9 @@ class Capture {
     bool capture_axis(const Target& target, Axis axis) {
         OuterHits hits;
         for (Side side : {Side::minus, Side::plus}) {
-            ViewImage image;
             image.view = {axis, side, 0};
             image.n = options.n;
-            capture_view(target, image);
+            capture_view(target);
             if (options.most_layers > 1) (side == Side::minus ? hits.first : hits.last) = image.depth;
             if (!send(std::move(image))) return false;
         }
@@ -116,7 +115,7 @@ class Capture {
     }
 
     AxisLayers find_layers(const Target& target, Axis axis, const OuterHits& hits) {
-        if (nothing_between(hits, options.n)) return {};
+        if (room_between(hits, options.n).empty()) return {};
         const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers};
         const auto layer_sink = [&](ViewImage&& image) {
             count(image);
@@ -143,7 +142,7 @@ class Capture {
         report.layers = all ? Layers::complete : Layers::incomplete;
     }
 
-    void capture_view(const Target& target, ViewImage& image) {
+    void capture_view(const Target& target) {
         Pass pass;
         pass.box = report.box;
         pass.axis = image.view.axis;
@@ -160,7 +159,10 @@ class Capture {
         report.read_seconds += seconds_since(start);
 
         start = Clock::now();
-        capture_normals(passes, target, pass, options.normals, image);
+        pass.only =
+            bounds_of(PixelRect::whole(image.n), image.n, [&](std::size_t p) { return image.covered(p); });
+        image.normal.assign(image.depth.size(), glm::vec4(0));
+        if (!pass.only->empty()) capture_normals(passes, target, pass, options.normals, image);
         report.normal_seconds += seconds_since(start);
         count(image);
     }
@@ -185,6 +187,7 @@ class Capture {
     EngineReport& report;
     PassRunner passes;
     std::unique_ptr<PeelShader> shader;
+    ViewImage image; ///< of the six views one after the other; memory that the sink leaves is used again
     long covered = 0;
 };
 

@@ -33,8 +33,11 @@ struct AxisLayers {
 /// Takes the layers 1, 2, ... in order; false stops.
 using LayerSink = std::function<bool(ViewImage&&)>;
 
-/// No ray has room for a hit between its first and its last.
-bool nothing_between(const OuterHits& hits, int n);
+/// A third hit fits between two of a ray of the n-lattice, depths 0..1.
+bool has_room(float first, float last, int n);
+
+/// The pixels whose rays have room for a hit between the first and the last.
+PixelRect room_between(const OuterHits& hits, int n);
 
 /// An image of a layer in which nothing is covered.
 ViewImage blank_layer(int n, Axis axis, int layer);

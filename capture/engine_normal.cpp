@@ -17,13 +17,19 @@ Drawn drawn(float alpha) {
     return alpha > 0.5f * (unlit_alpha + missed_alpha) ? Drawn::unlit : Drawn::missed;
 }
 
+PixelRect drawn_part(const Pass& pass, const Target& target) {
+    return pass.only.value_or(PixelRect::whole(target.size()));
+}
+
 /// One render: the lights' colours add up to the normal.
 void paint_signed(PassRunner& passes, const Target& target, Pass pass, Pixels& normals) {
     pass.lights = target.float_colour() ? Lights::signed_colour : Lights::half_colour;
     passes.run(pass, target);
-    target.read_colour(normals);
+    target.read_colour(normals, pass.only);
     if (target.float_colour()) return;
-    for (glm::vec4& pixel : normals) pixel = glm::vec4(glm::vec3(pixel) * 2.0f - 1.0f, pixel.a);
+    for_each_pixel(drawn_part(pass, target), target.size(), [&](std::size_t p) {
+        normals[p] = glm::vec4(glm::vec3(normals[p]) * 2.0f - 1.0f, normals[p].a);
+    });
 }
 
 /// The paper's six: opposite lights give the positive and the negative part of a component. The paper takes
@@ -35,12 +41,15 @@ void paint_six(PassRunner& passes, const Target& target, Pass pass, Pixels& norm
     for (int axis = 0; axis < 3; ++axis) {
         pass.light = 2 * axis;
         passes.run(pass, target);
-        target.read_colour(front);
+        target.read_colour(front, pass.only);
         pass.light = 2 * axis + 1;
         passes.run(pass, target);
-        target.read_colour(back);
-        if (axis == 0) normals = front; // and its alpha
-        for (std::size_t i = 0; i < normals.size(); ++i) normals[i][axis] = front[i].r - back[i].r;
+        target.read_colour(back, pass.only);
+        normals.resize(front.size());
+        for_each_pixel(drawn_part(pass, target), target.size(), [&](std::size_t p) {
+            normals[p][axis] = front[p].r - back[p].r;
+            normals[p].a = front[p].a;
+        });
     }
 }
 
@@ -52,10 +61,10 @@ void paint(PassRunner& passes, const Target& target, const Pass& pass, NormalMet
 }
 
 /// True when a covered pixel still has no draw behind it.
-bool any_missed(const ViewImage& image) {
-    for (std::size_t i = 0; i < image.normal.size(); ++i)
-        if (image.covered(i) && drawn(image.normal[i].a) == Drawn::missed) return true;
-    return false;
+bool any_missed(const ViewImage& image, const PixelRect& part) {
+    return !bounds_of(part, image.n, [&](std::size_t p) {
+                return image.covered(p) && drawn(image.normal[p].a) == Drawn::missed;
+            }).empty();
 }
 
 /// Where no fragment had the depth of the colour pass to the bit, take the first one that is within half a
@@ -65,23 +74,23 @@ void fill_missed(PassRunner& passes, const Target& target, Pass pass, NormalMeth
     Pixels second;
     std::vector<float> depth;
     paint(passes, target, pass, method, second);
-    target.read_depth(depth);
+    target.read_depth(depth, pass.only);
     const float tolerance = 0.5f / image.n;
-    for (std::size_t i = 0; i < second.size(); ++i) {
-        if (!image.covered(i) || drawn(image.normal[i].a) != Drawn::missed) continue;
-        if (std::abs(depth[i] - image.depth[i]) <= tolerance) image.normal[i] = second[i];
-    }
+    for_each_pixel(drawn_part(pass, target), image.n, [&](std::size_t p) {
+        if (!image.covered(p) || drawn(image.normal[p].a) != Drawn::missed) return;
+        if (std::abs(depth[p] - image.depth[p]) <= tolerance) image.normal[p] = second[p];
+    });
 }
 
 /// Alpha told how the pixel was drawn; from here on it tells whether there is a normal.
-void mark_normals(ViewImage& image) {
+void mark_normals(ViewImage& image, const PixelRect& part) {
     constexpr float shortest = 1e-6f;
-    for (std::size_t i = 0; i < image.normal.size(); ++i) {
-        glm::vec4& normal = image.normal[i];
+    for_each_pixel(part, image.n, [&](std::size_t p) {
+        glm::vec4& normal = image.normal[p];
         const bool there =
-            image.covered(i) && drawn(normal.a) == Drawn::lit && glm::length(glm::vec3(normal)) > shortest;
+            image.covered(p) && drawn(normal.a) == Drawn::lit && glm::length(glm::vec3(normal)) > shortest;
         normal = there ? glm::vec4(glm::vec3(normal), 1) : glm::vec4(0);
-    }
+    });
 }
 
 } // namespace
@@ -93,8 +102,9 @@ void capture_normals(PassRunner& passes, const Target& target, const Pass& view,
     pass.depth = DepthRule::equal;
     paint(passes, target, pass, method, image.normal);
     // Before an inner layer lies what is seen from outside, so only layer 0 can be found without equal depth.
-    if (image.view.layer == 0 && any_missed(image)) fill_missed(passes, target, pass, method, image);
-    mark_normals(image);
+    const PixelRect part = drawn_part(pass, target);
+    if (image.view.layer == 0 && any_missed(image, part)) fill_missed(passes, target, pass, method, image);
+    mark_normals(image, part);
 }
 
 } // namespace glcast

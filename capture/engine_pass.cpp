@@ -60,6 +60,12 @@ void reset_drawing_state(const GlTable& gl, const Pass& pass) {
     gl.ClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
 }
 
+/// Until the next pass: the program's own scissor calls are dropped.
+void scissor(const GlTable& gl, const PixelRect& rect) {
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
+}
+
 void clear(const GlTable& gl, const Pass& pass) {
     GLbitfield buffers = GL_COLOR_BUFFER_BIT;
     if (pass.depth != DepthRule::equal) buffers |= GL_DEPTH_BUFFER_BIT;
@@ -114,6 +120,7 @@ void PassRunner::set_state(const Pass& pass, const Target& target) const {
     unwind_stacks(gl);
     reset_caps(gl);
     target.bind();
+    if (pass.only) scissor(gl, *pass.only);
     reset_drawing_state(gl, pass);
     if (pass.depth != DepthRule::add) clear(gl, pass);
     set_depth_rule(pass);

@@ -39,6 +39,7 @@ struct Pass {
     int light = 0; ///< for `single`: 2 * axis, + 1 for the light from the negative side
     GLenum polygon_mode = GL_FILL;
     double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
+    std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
     const PeelShader* shader = nullptr; ///< for PassKind::peel
 };

@@ -6,6 +6,9 @@ namespace glcast {
 
 namespace {
 
+// It reads the colour, whose shade model then cuts quads into triangles as it does in the colour pass: Mesa
+// takes a quad strip in flat shading apart otherwise than in smooth shading, and other triangles have other
+// depths.
 constexpr const char* source = R"(#version 110
 #extension GL_ARB_texture_rectangle : require
 uniform sampler2DRect range;
@@ -15,7 +18,7 @@ void main() {
     float apart = min(same.x + same.y * (abs(dFdx(z)) + abs(dFdy(z))), same.z);
     vec3 r = texture2DRect(range, gl_FragCoord.xy).xyz;
     if (z <= r.y || z - r.x <= apart || r.z - z <= apart) discard;
-    gl_FragColor = vec4(1.0);
+    gl_FragColor = gl_Color;
 }
 )";
 
@@ -102,11 +105,14 @@ bool PeelShader::make_texture() {
     return true;
 }
 
-void PeelShader::upload(const std::vector<PeelRange>& ranges) const {
+void PeelShader::upload(const std::vector<PeelRange>& ranges, const PixelRect& only) const {
     reset_unpack_state(gl);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, n);
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_RECTANGLE, texture);
-    gl.TexSubImage2D(GL_TEXTURE_RECTANGLE, 0, 0, 0, n, n, GL_RGB, GL_FLOAT, ranges.data());
+    gl.TexSubImage2D(GL_TEXTURE_RECTANGLE, 0, only.x0, only.y0, only.x1 - only.x0, only.y1 - only.y0, GL_RGB,
+                     GL_FLOAT, ranges.data() + std::size_t(only.y0) * n + only.x0);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     gl.ActiveTexture(GL_TEXTURE0);
 }
 

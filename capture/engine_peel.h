@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "capture/pixel_rect.h"
 
 namespace glcast {
 
@@ -35,8 +36,9 @@ class PeelShader {
     PeelShader(const PeelShader&) = delete;
     PeelShader& operator=(const PeelShader&) = delete;
 
-    /// n x n, row 0 is the bottom. Pixel store and transfer state is left at what it needs.
-    void upload(const std::vector<PeelRange>& ranges) const;
+    /// n x n, row 0 is the bottom, of which `only` is taken. Pixel store and transfer state is left at what
+    /// it needs.
+    void upload(const std::vector<PeelRange>& ranges, const PixelRect& only) const;
     /// The program in use and the texture bound, texture unit 0 active.
     void use() const;
 

@@ -31,10 +31,11 @@ struct Slab {
 class AxisSlabs {
   public:
     AxisSlabs(const LayerTask& task, const OuterHits& outer)
-        : task(task), outer(outer), n(task.target.size()) {
+        : task(task), outer(outer), n(task.target.size()), part(room_between(outer, n)) {
         pass.box = task.box;
         pass.axis = task.axis;
         pass.viewer = Side::minus;
+        pass.only = part;
     }
 
     AxisLayers run(const LayerSink& sink) {
@@ -76,7 +77,7 @@ class AxisSlabs {
         pass.near = std::max(slab.near - overlap / n, 0.0);
         pass.far = std::min(slab.far + overlap / n, 1.0);
         draw(Side::minus, DepthRule::count);
-        task.target.read_stencil(fragments);
+        task.target.read_stencil(fragments, part);
         const int most = *std::max_element(fragments.begin(), fragments.end());
         if (most > 2 && slab.far - slab.near > thinnest / n) return false;
         if (most == 0) return true;
@@ -99,26 +100,26 @@ class AxisSlabs {
     /// What the pass that was drawn last shows of what lies between the outer hits.
     void take() {
         ViewImage image = blank_layer(n, task.axis, 1);
-        task.target.read_depth(depth);
-        task.target.read_colour(image.colour);
+        task.target.read_depth(depth, part);
+        task.target.read_colour(image.colour, part);
         const float nothing = ViewImage::background(pass.side);
         bool any = false;
-        for (std::size_t p = 0; p < depth.size(); ++p) {
+        for_each_pixel(part, n, [&](std::size_t p) {
             const bool drawn = fragments[p] > 0 && depth[p] != nothing;
             depth[p] = static_cast<float>(pass.near + depth[p] * (pass.far - pass.near));
             const bool inner = drawn && between(p, depth[p], SameHit::flat);
             image.colour[p].a = inner ? 1.0f : 0.0f;
             any |= inner;
-        }
+        });
         if (!any) return;
         capture_normals(task.passes, task.target, pass, task.normals, image);
-        for (std::size_t p = 0; p < depth.size(); ++p) {
-            if (!image.covered(p)) continue;
+        for_each_pixel(part, n, [&](std::size_t p) {
+            if (!image.covered(p)) return;
             const glm::vec4 normal = image.normal[p];
             hits.push_back({static_cast<std::uint32_t>(p), depth[p],
                             glm::packHalf(glm::vec4(glm::vec3(image.colour[p]), normal.w)),
                             glm::vec3(normal)});
-        }
+        });
     }
 
     bool between(std::size_t pixel, float z, float samples) const {
@@ -129,8 +130,9 @@ class AxisSlabs {
     /// More than two fragments in a slab that is not cut any more: one hit if they are that near.
     void judge_thinnest() {
         const float apart = SameHit::flat / static_cast<float>(n);
-        for (std::size_t p = 0; p < depth.size(); ++p)
+        for_each_pixel(part, n, [&](std::size_t p) {
             if (fragments[p] > 2 && depth[p] - first[p] > apart) complete = false;
+        });
     }
 
     /// SameHit, by the slope that the captured normal tells.
@@ -197,6 +199,7 @@ class AxisSlabs {
     const LayerTask& task;
     const OuterHits& outer;
     const int n;
+    const PixelRect part; ///< all that is drawn, read and gone through
     Pass pass;
     std::vector<SlabHit> hits;
     std::vector<float> depth, first; ///< through the box; `first` of the thinnest slabs

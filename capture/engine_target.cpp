@@ -85,22 +85,29 @@ void Target::bind() const {
     gl.Viewport(0, 0, pixels, pixels);
 }
 
-void Target::read_depth(std::vector<float>& depth) const {
-    depth.resize(std::size_t(pixels) * pixels);
+template <class Value>
+void Target::read(std::vector<Value>& values, const std::optional<PixelRect>& only, GLenum format,
+                  GLenum type) const {
+    values.resize(std::size_t(pixels) * pixels);
+    const PixelRect rect = only.value_or(PixelRect::whole(pixels));
+    if (rect.empty()) return;
     reset_pixel_state(gl);
-    gl.ReadPixels(0, 0, pixels, pixels, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, pixels);
+    Value* const first = values.data() + std::size_t(rect.y0) * pixels + rect.x0;
+    gl.ReadPixels(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, format, type, first);
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
-void Target::read_colour(std::vector<glm::vec4>& colour) const {
-    colour.resize(std::size_t(pixels) * pixels);
-    reset_pixel_state(gl);
-    gl.ReadPixels(0, 0, pixels, pixels, GL_RGBA, GL_FLOAT, colour.data());
+void Target::read_depth(std::vector<float>& depth, const std::optional<PixelRect>& only) const {
+    read(depth, only, GL_DEPTH_COMPONENT, GL_FLOAT);
 }
 
-void Target::read_stencil(std::vector<std::uint8_t>& stencil) const {
-    stencil.resize(std::size_t(pixels) * pixels);
-    reset_pixel_state(gl);
-    gl.ReadPixels(0, 0, pixels, pixels, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+void Target::read_colour(std::vector<glm::vec4>& colour, const std::optional<PixelRect>& only) const {
+    read(colour, only, GL_RGBA, GL_FLOAT);
+}
+
+void Target::read_stencil(std::vector<std::uint8_t>& stencil, const std::optional<PixelRect>& only) const {
+    read(stencil, only, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE);
 }
 
 GlTable with_framebuffer_calls(GlTable gl) {

@@ -2,9 +2,11 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "capture/pixel_rect.h"
 
 namespace glcast {
 
@@ -23,13 +25,17 @@ class Target {
     int size() const { return pixels; }
 
     void bind() const;
-    /// size x size values, row 0 is the bottom. Pixel store and transfer state is left at what reading needs.
-    void read_depth(std::vector<float>& depth) const;
-    void read_colour(std::vector<glm::vec4>& colour) const;
-    void read_stencil(std::vector<std::uint8_t>& stencil) const;
+    /// size x size values, row 0 is the bottom; those outside of `only` stay as they are, or are 0 where the
+    /// vector had another size. Pixel store and transfer state is left at what reading needs.
+    void read_depth(std::vector<float>& depth, const std::optional<PixelRect>& only = {}) const;
+    void read_colour(std::vector<glm::vec4>& colour, const std::optional<PixelRect>& only = {}) const;
+    void read_stencil(std::vector<std::uint8_t>& stencil, const std::optional<PixelRect>& only = {}) const;
 
   private:
     bool try_formats(GLenum colour_format, GLenum depth_format);
+    template <class Value>
+    void read(std::vector<Value>& values, const std::optional<PixelRect>& only, GLenum format,
+              GLenum type) const;
 
     const GlTable& gl;
     const int pixels;

@@ -70,6 +70,59 @@ TEST_F(LayersOf, NothingIsDrawnTwice) {
     EXPECT_EQ(cast.report.layer_draws, 3 * (4 * 3 + 1));
 }
 
+/// What is seen of the inner ones shrinks and moves from layer to layer.
+void draw_leaning_bodies(const GlTable& gl) {
+    set_lit(gl);
+    gl.Rotated(40, 1, 0.3, 0.2);
+    set_diffuse(gl, red);
+    draw_box(gl, glm::dvec3(-0.55), glm::dvec3(0.55));
+    set_diffuse(gl, green);
+    draw_sphere(gl, glm::dvec3(0.2, 0.1, 0.15), 0.3);
+    set_diffuse(gl, blue);
+    draw_box(gl, {0.2, 0.1, 0.1}, {0.3, 0.2, 0.2});
+}
+
+/// A gear's walls, in the primitive and the shading asked for.
+void draw_rings(const GlTable& gl, GLenum primitive, GLenum shading) {
+    set_lit(gl);
+    gl.Rotated(35, 1, 0.7, 0.2);
+    gl.ShadeModel(shading);
+    for (const double radius : {0.9, 0.6, 0.4}) {
+        constexpr int sides = 29;
+        const auto wall = [&](int i, double z) {
+            const double angle = i * 2 * 3.14159265358979 / sides, r = radius * (i % 2 ? 1 : 0.9);
+            gl.Vertex3d(r * std::cos(angle), r * std::sin(angle), z);
+        };
+        gl.Begin(primitive);
+        for (int i = 0; i <= sides; ++i) {
+            const double angle = i * 2 * 3.14159265358979 / sides;
+            gl.Normal3d(std::cos(angle), std::sin(angle), 0);
+            if (primitive == GL_QUADS) {
+                wall(i, 0.3), wall(i, -0.3), wall(i + 1, -0.3), wall(i + 1, 0.3);
+            } else {
+                wall(i, 0.3), wall(i, -0.3);
+            }
+        }
+        gl.End();
+    }
+    gl.ShadeModel(GL_SMOOTH);
+}
+
+/// A hit that the fixed fragment stage sees elsewhere would be taken for a hole, looked behind of in draws of
+/// its own, and lost.
+TEST_F(LayersOf, QuadsHaveNoHoles) {
+    options.n = 128;
+    for (const GLenum primitive : {GL_QUADS, GL_QUAD_STRIP})
+        for (const GLenum shading : {GL_FLAT, GL_SMOOTH}) {
+            const Cast cast =
+                complete_cast_of([&](const GlTable& gl) { draw_rings(gl, primitive, shading); });
+            int expected = 0;
+            for (const int count : cast.report.layer_count) expected += 3 * (count - 1) + 1;
+            EXPECT_GE(cast.report.layer_count[0], 3);
+            EXPECT_EQ(cast.report.layer_draws, expected) << primitive << " " << shading;
+        }
+}
+
 TEST_F(LayersOf, ImagesComeAxisByAxis) {
     const Cast cast = cast_of(nested_spheres);
     std::size_t at = 0;
@@ -80,6 +133,24 @@ TEST_F(LayersOf, ImagesComeAxisByAxis) {
             EXPECT_EQ(cast.images.at(at++).view, (View{axis, Side::minus, layer}));
     }
     EXPECT_EQ(cast.images.size(), at);
+}
+
+/// The receiver may leave an image where it is; its memory then holds the next one.
+TEST_F(LayersOf, ImagesThatAreNotTakenAreTheSame) {
+    const Cast taken = cast_of(draw_leaning_bodies);
+    std::vector<ViewImage> copies;
+    run_capture(gl, draw_leaning_bodies, options, [&](ViewImage&& image) {
+        copies.push_back(std::as_const(image));
+        return true;
+    });
+    ASSERT_EQ(copies.size(), taken.images.size());
+    EXPECT_GE(taken.report.layer_count[0], 4);
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+        EXPECT_EQ(copies[k].view, taken.images[k].view);
+        EXPECT_EQ(copies[k].depth, taken.images[k].depth);
+        EXPECT_EQ(copies[k].colour, taken.images[k].colour);
+        EXPECT_EQ(copies[k].normal, taken.images[k].normal);
+    }
 }
 
 TEST_F(LayersOf, AsManyAsAreAskedFor) {
@@ -335,6 +406,20 @@ class Leaves : public LayersOf {
 };
 
 TEST_F(Leaves, HolesOfTexturesAreNoHits) { expect_leaves(); }
+
+/// More holes than hits in the first layer: it is then tested whether the driver is to be trusted, in the
+/// same target.
+TEST_F(Leaves, MostlyHolesHaveNormalsToo) {
+    const Cast cast = complete_cast_of([&](const GlTable& table) {
+        table.MatrixMode(GL_TEXTURE);
+        table.Translated(0.25, 0, 0);
+        table.Scaled(1.5, 1, 1);
+        table.MatrixMode(GL_MODELVIEW);
+        leaves(table, {{left, 0.3}});
+    });
+    EXPECT_EQ(inner(cast, -0.55), std::vector<double>{0.3});
+    EXPECT_EQ(inner(cast, -0.2), std::vector<double>{});
+}
 
 TEST_F(Leaves, HolesOfTexturesAreNoHitsInSlabsEither) {
     options.layer_method = LayerMethod::slab;
