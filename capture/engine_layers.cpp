@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "capture/engine_blend.h"
 #include "capture/engine_normal.h"
 
 namespace glcast {
@@ -83,8 +84,9 @@ class AxisPeeler {
         pass.kind = PassKind::colour;
         pass.depth = DepthRule::equal;
         task.passes.run(pass, task.target);
-        task.target.read_colour(image.colour);
         task.target.read_stencil(marks);
+        blend_coincident(task.passes, task.target, pass);
+        read_blended(task.target, image.colour);
         long shown = 0;
         for (std::size_t p = 0; p < depth.size(); ++p) {
             const bool candidate = depth[p] < 1, hit = candidate && marks[p] != 0;

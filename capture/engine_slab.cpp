@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "capture/engine_blend.h"
 #include "capture/engine_normal.h"
 
 namespace glcast {
@@ -100,17 +101,17 @@ class AxisSlabs {
     void take() {
         ViewImage image = blank_layer(n, task.axis, 1);
         task.target.read_depth(depth);
-        task.target.read_colour(image.colour);
         const float nothing = ViewImage::background(pass.side);
-        bool any = false;
+        std::vector<std::uint8_t> inner(depth.size());
         for (std::size_t p = 0; p < depth.size(); ++p) {
             const bool drawn = fragments[p] > 0 && depth[p] != nothing;
             depth[p] = static_cast<float>(pass.near + depth[p] * (pass.far - pass.near));
-            const bool inner = drawn && between(p, depth[p], SameHit::flat);
-            image.colour[p].a = inner ? 1.0f : 0.0f;
-            any |= inner;
+            inner[p] = drawn && between(p, depth[p], SameHit::flat);
         }
-        if (!any) return;
+        if (std::find(inner.begin(), inner.end(), 1) == inner.end()) return;
+        blend_coincident(task.passes, task.target, pass);
+        read_blended(task.target, image.colour);
+        for (std::size_t p = 0; p < depth.size(); ++p) image.colour[p].a = inner[p];
         capture_normals(task.passes, task.target, pass, task.normals, image);
         for (std::size_t p = 0; p < depth.size(); ++p) {
             if (!image.covered(p)) continue;
