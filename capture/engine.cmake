@@ -1,6 +1,8 @@
 # The capture engine. Linked into a preloaded library: no static constructors, no iostream.
 add_library(glcast_engine STATIC
+    coincident.cpp
     engine.cpp
+    engine_blend.cpp
     engine_box.cpp
     engine_layers.cpp
     engine_normal.cpp

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 
+#include "capture/engine_blend.h"
 #include "capture/engine_box.h"
 #include "capture/engine_layers.h"
 #include "capture/engine_normal.h"
@@ -150,11 +151,12 @@ class Capture {
 
         auto start = Clock::now();
         passes.run(pass, target);
+        blend_coincident(passes, target, pass);
         report.colour_seconds += seconds_since(start);
 
         start = Clock::now();
         target.read_depth(image.depth);
-        target.read_colour(image.colour);
+        read_blended(target, image.colour, PixelRect::whole(image.n));
         mark_covered(image);
         report.read_seconds += seconds_since(start);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "capture/engine_blend.h"
 #include "capture/engine_normal.h"
 
 namespace glcast {
@@ -112,8 +113,9 @@ class AxisPeeler {
         pass.kind = PassKind::colour;
         pass.depth = DepthRule::equal;
         task.passes.run(pass, task.target);
-        task.target.read_colour(image.colour, open);
         task.target.read_stencil(marks, open);
+        blend_coincident(task.passes, task.target, pass);
+        read_blended(task.target, image.colour, open);
         long shown = 0;
         for_each_pixel(open, n, [&](std::size_t p) {
             const bool candidate = depth[p] < 1, hit = candidate && marks[p] != 0;

@@ -13,6 +13,15 @@ namespace {
 
 constexpr int light_count = 6;
 
+bool at_known_depth(const Pass& pass) {
+    return pass.depth == DepthRule::equal || pass.depth == DepthRule::blend;
+}
+
+GLenum depth_function(const Pass& pass) {
+    if (at_known_depth(pass)) return GL_EQUAL;
+    return pass.side == Side::minus ? GL_LESS : GL_GREATER;
+}
+
 void set_cap(const GlTable& gl, GLenum cap, bool on) { on ? gl.Enable(cap) : gl.Disable(cap); }
 
 void unwind(const GlTable& gl, GLenum depth_name, GLint bottom, void(APIENTRYP pop)()) {
@@ -67,8 +76,9 @@ void scissor(const GlTable& gl, const PixelRect& rect) {
 }
 
 void clear(const GlTable& gl, const Pass& pass) {
-    GLbitfield buffers = GL_COLOR_BUFFER_BIT;
-    if (pass.depth != DepthRule::equal) buffers |= GL_DEPTH_BUFFER_BIT;
+    GLbitfield buffers = 0;
+    if (pass.depth != DepthRule::blend) buffers |= GL_COLOR_BUFFER_BIT;
+    if (!at_known_depth(pass)) buffers |= GL_DEPTH_BUFFER_BIT;
     if (pass.depth != DepthRule::missed) buffers |= GL_STENCIL_BUFFER_BIT;
     gl.DepthMask(GL_TRUE);
     gl.StencilMask(~0u);
@@ -106,10 +116,11 @@ PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const Engine
 void PassRunner::run(const Pass& pass, const Target& target) {
     set_state(pass, target);
     {
-        ForcedTable forced(gl, pass.kind, mirrored(pass));
+        ForcedTable forced(gl, pass.kind, mirrored(pass), depth_function(pass));
         ++draw_count;
         draw(forced.table());
         own_program |= forced.state.saw_own_program;
+        unblended = forced.state.saw_blending || forced.state.depth_clears > 1;
     }
     gl.RenderMode(GL_RENDER);
     gl.Finish();
@@ -132,9 +143,9 @@ void PassRunner::set_state(const Pass& pass, const Target& target) const {
 }
 
 void PassRunner::set_depth_rule(const Pass& pass) const {
-    const bool equal = pass.depth == DepthRule::equal, missed = pass.depth == DepthRule::missed;
+    const bool equal = at_known_depth(pass), missed = pass.depth == DepthRule::missed;
     gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(equal ? GL_EQUAL : pass.side == Side::minus ? GL_LESS : GL_GREATER);
+    gl.DepthFunc(depth_function(pass));
     gl.DepthMask(equal ? GL_FALSE : GL_TRUE);
     const bool count = pass.depth == DepthRule::count;
     set_cap(gl, GL_STENCIL_TEST, equal || missed || count);

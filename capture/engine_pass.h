@@ -16,8 +16,9 @@ class PeelShader;
 enum class DepthRule {
     first,  ///< clear; the first that the side sees
     add,    ///< as `first`, on top of what is there
-    equal,  ///< the first drawn of those at the depth that is there; writes no depth, marks its pixels in the
-            ///< stencil buffer
+    equal,  ///< those at the depth that is there, on black; writes no depth, marks its pixels in the stencil
+            ///< buffer
+    blend,  ///< the same over the colours that are there
     missed, ///< as `first`, where `equal` marked nothing
     count,  ///< as `first`, and every fragment, hidden or not, is counted in the stencil buffer
 };
@@ -52,6 +53,9 @@ class PassRunner {
     int draws() const { return draw_count; }
     /// A peel pass met draws by programs of the program's own, and left them out.
     bool saw_own_program() const { return own_program; }
+    /// The last colour pass met fragments that blend, or that come after a further clear of depth: its
+    /// colours are final only after a blend pass.
+    bool wants_blend_pass() const { return unblended; }
 
   private:
     void set_state(const Pass& pass, const Target& target) const;
@@ -65,7 +69,7 @@ class PassRunner {
     const glm::dmat4 eye_to_capture;
     const bool mirrored_projection;
     int draw_count = 0;
-    bool own_program = false;
+    bool own_program = false, unblended = false;
 };
 
 } // namespace glcast

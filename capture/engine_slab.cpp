@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "capture/engine_blend.h"
 #include "capture/engine_normal.h"
 
 namespace glcast {
@@ -101,17 +102,19 @@ class AxisSlabs {
     void take() {
         ViewImage image = blank_layer(n, task.axis, 1);
         task.target.read_depth(depth, part);
-        task.target.read_colour(image.colour, part);
         const float nothing = ViewImage::background(pass.side);
+        std::vector<std::uint8_t> inner(depth.size());
         bool any = false;
         for_each_pixel(part, n, [&](std::size_t p) {
             const bool drawn = fragments[p] > 0 && depth[p] != nothing;
             depth[p] = static_cast<float>(pass.near + depth[p] * (pass.far - pass.near));
-            const bool inner = drawn && between(p, depth[p], SameHit::flat);
-            image.colour[p].a = inner ? 1.0f : 0.0f;
-            any |= inner;
+            inner[p] = drawn && between(p, depth[p], SameHit::flat);
+            any |= inner[p] != 0;
         });
         if (!any) return;
+        blend_coincident(task.passes, task.target, pass);
+        read_blended(task.target, image.colour, part);
+        for_each_pixel(part, n, [&](std::size_t p) { image.colour[p].a = inner[p]; });
         capture_normals(task.passes, task.target, pass, task.normals, image);
         for_each_pixel(part, n, [&](std::size_t p) {
             if (!image.covered(p)) return;

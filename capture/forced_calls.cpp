@@ -13,9 +13,10 @@ ForcedState& state() { return self().state; }
 ForcedState::Values& program() { return self().state.program; }
 
 void note_cap(GLenum cap, bool on) {
+    FragmentState& fragments = program().fragments;
     switch (cap) {
     case GL_LIGHTING:
-        program().lighting = on, state().apply_lighting();
+        fragments.lighting = on, state().apply_lighting(), state().apply_order();
         break;
     case GL_COLOR_MATERIAL:
         program().colour_material = on, state().apply_colour_material();
@@ -24,16 +25,21 @@ void note_cap(GLenum cap, bool on) {
         program().alpha_test = on, state().apply_alpha();
         break;
     case GL_BLEND:
-        program().blend = on, state().apply_alpha();
+        fragments.blend = on, state().apply_fragments();
+        break;
+    case GL_DEPTH_TEST:
+        fragments.depth_test = on, state().apply_order();
+        break;
+    case GL_STENCIL_TEST:
+        fragments.stencil_test = on, state().apply_order();
         break;
     }
 }
 
 /// True when the call is to be made as it is.
 bool kept_cap(GLenum cap, bool on) {
-    const CapPolicy policy = cap_policy(cap, self().kind);
-    if (policy == CapPolicy::track) note_cap(cap, on);
-    return policy == CapPolicy::keep;
+    note_cap(cap, on);
+    return cap_policy(cap, self().kind) == CapPolicy::keep;
 }
 
 bool kept_light_model(GLenum name) { return name == GL_LIGHT_MODEL_TWO_SIDE; }
@@ -104,26 +110,54 @@ void APIENTRY alpha_func(GLenum function, GLclampf reference) {
     state().apply_alpha();
 }
 void APIENTRY blend_func(GLenum source, GLenum destination) {
-    program().blend_source = source;
-    program().blend_destination = destination;
-    state().apply_alpha();
+    blend_func_separate(source, destination, source, destination);
 }
-void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum, GLenum) {
-    blend_func(source, destination);
+void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_alpha,
+                                  GLenum destination_alpha) {
+    FragmentState& fragments = program().fragments;
+    fragments.source = source, fragments.destination = destination;
+    fragments.source_alpha = source_alpha, fragments.destination_alpha = destination_alpha;
+    state().apply_fragments();
 }
+void APIENTRY blend_func_indexed(GLuint buffer, GLenum source, GLenum destination) {
+    if (buffer == 0) blend_func(source, destination);
+}
+void APIENTRY blend_equation(GLenum equation) { blend_equation_separate(equation, equation); }
+void APIENTRY blend_equation_separate(GLenum equation, GLenum equation_alpha) {
+    program().fragments.equation = equation;
+    program().fragments.equation_alpha = equation_alpha;
+    state().apply_fragments();
+}
+void APIENTRY depth_func(GLenum function) {
+    program().fragments.depth_function = function;
+    state().apply_order();
+}
+void APIENTRY depth_mask(GLboolean on) {
+    program().fragments.depth_mask = on;
+    state().apply_order();
+}
+void APIENTRY stencil_func(GLenum function, GLint, GLuint) {
+    program().fragments.stencil_function = function;
+    state().apply_order();
+}
+void APIENTRY stencil_func_separate(GLenum face, GLenum function, GLint reference, GLuint mask) {
+    if (face != GL_BACK) stencil_func(function, reference, mask);
+}
+void APIENTRY clear(GLbitfield buffers) { state().cleared(buffers); }
+void APIENTRY clear_color(GLclampf, GLclampf, GLclampf, GLclampf alpha) { program().clear_alpha = alpha; }
 void APIENTRY colour_mask(GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha) {
-    program().mask_shows = red || green || blue || alpha;
-    state().apply_alpha();
+    program().colour_mask = {red, green, blue, alpha};
+    state().apply_fragments();
 }
 void APIENTRY draw_buffer(GLenum buffer) {
     program().buffer_shows = buffer != GL_NONE;
-    state().apply_alpha();
+    state().apply_fragments();
 }
 void APIENTRY draw_buffers(GLsizei count, const GLenum* buffers) {
     bool shows = false;
     for (GLsizei i = 0; i < count; ++i) shows |= buffers[i] != GL_NONE;
     program().buffer_shows = shows;
-    state().apply_alpha();
+    state().apply_fragments();
 }
 
 /// Peel passes: our own stays in use, and what another would draw is not drawn.

@@ -28,6 +28,15 @@ void APIENTRY alpha_func(GLenum function, GLclampf reference);
 void APIENTRY blend_func(GLenum source, GLenum destination);
 void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_alpha,
                                   GLenum destination_alpha);
+void APIENTRY blend_func_indexed(GLuint buffer, GLenum source, GLenum destination);
+void APIENTRY blend_equation(GLenum equation);
+void APIENTRY blend_equation_separate(GLenum equation, GLenum equation_alpha);
+void APIENTRY depth_func(GLenum function);
+void APIENTRY depth_mask(GLboolean on);
+void APIENTRY stencil_func(GLenum function, GLint reference, GLuint mask);
+void APIENTRY stencil_func_separate(GLenum face, GLenum function, GLint reference, GLuint mask);
+void APIENTRY clear(GLbitfield buffers);
+void APIENTRY clear_color(GLclampf red, GLclampf green, GLclampf blue, GLclampf alpha);
 void APIENTRY colour_mask(GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha);
 void APIENTRY draw_buffer(GLenum buffer);
 void APIENTRY draw_buffers(GLsizei count, const GLenum* buffers);

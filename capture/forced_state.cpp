@@ -18,34 +18,51 @@ namespace {
 
 void set_cap(const GlTable& gl, GLenum cap, bool on) { on ? gl.Enable(cap) : gl.Disable(cap); }
 
+void restore_colour_buffer(ForcedState::Values& now, const ForcedState::Values& old) {
+    now.alpha_function = old.alpha_function;
+    now.alpha_reference = old.alpha_reference;
+    now.fragments.source = old.fragments.source;
+    now.fragments.destination = old.fragments.destination;
+    now.fragments.source_alpha = old.fragments.source_alpha;
+    now.fragments.destination_alpha = old.fragments.destination_alpha;
+    now.fragments.equation = old.fragments.equation;
+    now.fragments.equation_alpha = old.fragments.equation_alpha;
+    now.colour_mask = old.colour_mask;
+    now.buffer_shows = old.buffer_shows;
+    now.clear_alpha = old.clear_alpha;
+}
+
 /// Tracked values that PopAttrib brings back, by the bits of the mask.
 void restore(ForcedState::Values& now, const ForcedState::Values& old, GLbitfield mask) {
+    FragmentState& fragments = now.fragments;
+    const FragmentState& old_fragments = old.fragments;
     if (mask & (GL_ENABLE_BIT | GL_LIGHTING_BIT)) {
-        now.lighting = old.lighting;
+        fragments.lighting = old_fragments.lighting;
         now.colour_material = old.colour_material;
     }
     if (mask & (GL_ENABLE_BIT | GL_COLOR_BUFFER_BIT)) {
-        now.blend = old.blend;
+        fragments.blend = old_fragments.blend;
         now.alpha_test = old.alpha_test;
     }
+    if (mask & (GL_ENABLE_BIT | GL_DEPTH_BUFFER_BIT)) fragments.depth_test = old_fragments.depth_test;
+    if (mask & (GL_ENABLE_BIT | GL_STENCIL_BUFFER_BIT)) fragments.stencil_test = old_fragments.stencil_test;
     if (mask & GL_LIGHTING_BIT) {
         now.colour_material_face = old.colour_material_face;
         now.colour_material_mode = old.colour_material_mode;
     }
-    if (mask & GL_COLOR_BUFFER_BIT) {
-        now.alpha_function = old.alpha_function;
-        now.alpha_reference = old.alpha_reference;
-        now.blend_source = old.blend_source;
-        now.blend_destination = old.blend_destination;
-        now.mask_shows = old.mask_shows;
-        now.buffer_shows = old.buffer_shows;
+    if (mask & GL_DEPTH_BUFFER_BIT) {
+        fragments.depth_function = old_fragments.depth_function;
+        fragments.depth_mask = old_fragments.depth_mask;
     }
+    if (mask & GL_STENCIL_BUFFER_BIT) fragments.stencil_function = old_fragments.stencil_function;
+    if (mask & GL_COLOR_BUFFER_BIT) restore_colour_buffer(now, old);
     if (mask & GL_TRANSFORM_BIT) now.matrix_mode = old.matrix_mode;
 }
 
 } // namespace
 
-ForcedState::ForcedState(const GlTable& real, PassKind kind) : real(real), kind(kind) {
+ForcedState::ForcedState(const GlTable& real, PassKind kind, GLenum depth)
+    : real(real), kind(kind), depth(depth) {
     GLint limit = 0;
     real.GetIntegerv(GL_MAX_ATTRIB_STACK_DEPTH, &limit);
     if (limit > 0) stack_limit = static_cast<std::size_t>(limit);
@@ -63,18 +80,24 @@ void ForcedState::pop() {
     apply();
 }
 
+/// Any colour at all; alpha alone is seen by nobody, but by what blends with it.
+bool ForcedState::shows() const {
+    const auto& mask = program.colour_mask;
+    const bool colour = mask.red || mask.green || mask.blue || (kind == PassKind::blend && mask.alpha);
+    return colour && program.buffer_shows && !program.own_program;
+}
+
 void ForcedState::apply_alpha() const {
-    const bool shown = program.mask_shows && program.buffer_shows && !program.own_program;
-    const bool replaces = program.blend_source == GL_ONE && program.blend_destination == GL_ZERO;
     // The normal pass has equal depth to go by; what a peel pass finds is tested by the colour pass after it.
-    const bool keeps_test = kind == PassKind::colour;
-    if (!shown) {
+    const bool keeps_test = kind == PassKind::colour || kind == PassKind::blend;
+    const bool solid = kind != PassKind::colour || !program.fragments.only_tints();
+    if (!shows() || !solid) {
         real.AlphaFunc(GL_NEVER, 0);
         real.Enable(GL_ALPHA_TEST);
     } else if (keeps_test && program.alpha_test) {
         real.AlphaFunc(program.alpha_function, program.alpha_reference);
         real.Enable(GL_ALPHA_TEST);
-    } else if (keeps_test && program.blend && !replaces) {
+    } else if (kind == PassKind::colour && program.fragments.blends()) {
         real.AlphaFunc(GL_GEQUAL, 0.5f);
         real.Enable(GL_ALPHA_TEST);
     } else {
@@ -82,8 +105,62 @@ void ForcedState::apply_alpha() const {
     }
 }
 
+/// Colours where the depth is still to be found: what replaces may come over its equals, what blends is mixed
+/// in later.
+void ForcedState::order_by_depth() const {
+    const bool over = !program.fragments.blends() && !coincidence(program.fragments).yields;
+    real.DepthFunc(!over ? depth : depth == GL_GREATER ? GL_GEQUAL : GL_LEQUAL);
+}
+
+/// The same where it is known: the stencil buffer counts what was drawn there, as far as it is in the way of
+/// what comes after it.
+void ForcedState::order_by_stencil() const {
+    const Coincidence rule = coincidence(program.fragments);
+    const bool writes_depth = program.fragments.depth_test && program.fragments.depth_mask;
+    bool over = !rule.yields, counts = true;
+    if (kind == PassKind::colour)
+        over = over && !program.fragments.blends();
+    else if (kind == PassKind::blend)
+        counts = writes_depth;
+    else // a normal: of the first that has one
+        over = false, counts = program.fragments.lighting;
+    real.StencilFunc(over ? GL_ALWAYS : GL_EQUAL, 0, ~0u);
+    real.StencilOp(GL_KEEP, GL_KEEP, counts ? GL_INCR : GL_KEEP);
+}
+
+void ForcedState::apply_order() {
+    if (kind == PassKind::peel) return;
+    saw_blending |= program.fragments.blends() && shows();
+    if (depth == GL_EQUAL)
+        order_by_stencil();
+    else if (kind == PassKind::colour)
+        order_by_depth();
+    if (kind == PassKind::colour) set_first_colour(real, program.fragments);
+    if (kind != PassKind::blend) return;
+    set_mixing(real, program.fragments, coincidence(program.fragments).mixing);
+    const auto& mask = program.colour_mask;
+    real.ColorMask(mask.red, mask.green, mask.blue, mask.alpha);
+}
+
+void ForcedState::apply_fragments() {
+    apply_alpha();
+    apply_order();
+}
+
+void ForcedState::cleared(GLbitfield buffers) {
+    if ((buffers & GL_DEPTH_BUFFER_BIT) && program.fragments.depth_mask) {
+        ++depth_clears;
+        if (kind == PassKind::blend) real.Clear(GL_STENCIL_BUFFER_BIT);
+    }
+    const auto& mask = program.colour_mask;
+    const bool alpha_alone = mask.alpha && !mask.red && !mask.green && !mask.blue;
+    if (kind != PassKind::blend || !(buffers & GL_COLOR_BUFFER_BIT) || !alpha_alone) return;
+    real.ClearColor(0, 0, 0, program.clear_alpha);
+    real.Clear(GL_COLOR_BUFFER_BIT);
+}
+
 void ForcedState::apply_colour_material() const {
-    if (kind != PassKind::colour) return;
+    if (kind != PassKind::colour && kind != PassKind::blend) return;
     const GLenum mode = mapped_material(program.colour_material_mode);
     const bool on = program.colour_material && mode != GL_NONE;
     if (on) real.ColorMaterial(program.colour_material_face, mode);
@@ -93,11 +170,11 @@ void ForcedState::apply_colour_material() const {
 void ForcedState::apply_lighting() const {
     if (kind != PassKind::normal) return;
     static constexpr GLfloat lit[] = {1, 1, 1, lit_alpha}, unlit[] = {0, 0, 0, unlit_alpha};
-    real.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, program.lighting ? lit : unlit);
+    real.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, program.fragments.lighting ? lit : unlit);
 }
 
-void ForcedState::apply() const {
-    apply_alpha();
+void ForcedState::apply() {
+    apply_fragments();
     apply_colour_material();
     apply_lighting();
 }

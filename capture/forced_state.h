@@ -2,12 +2,14 @@
 #pragma once
 #include <vector>
 
+#include "capture/coincident.h"
 #include "capture/gl/gl_table.h"
 
 namespace glcast {
 
 enum class PassKind {
-    colour, ///< depth and colour; also what the box is found with
+    colour, ///< depth, and the colour of what stays there; also what the box is found with
+    blend,  ///< what blends with the colours that are there (coincident.h)
     normal, ///< normals as colours
     peel,   ///< depth alone, by a fragment shader of ours (engine_peel.h)
 };
@@ -19,37 +21,54 @@ inline constexpr float lit_alpha = 1.0f, unlit_alpha = 0.5f, missed_alpha = 0.0f
 /// the forced table keeps lives in GL itself, where PushAttrib and PopAttrib take care of it.
 class ForcedState {
   public:
-    ForcedState(const GlTable& real, PassKind kind);
+    /// `depth`: the depth function that the pass has set. With GL_EQUAL the stencil buffer counts what was
+    /// drawn.
+    ForcedState(const GlTable& real, PassKind kind, GLenum depth);
 
     /// One set of values, at GL's defaults.
     struct Values {
-        bool lighting = false, colour_material = false, blend = false, alpha_test = false;
+        bool colour_material = false, alpha_test = false;
         GLenum colour_material_face = GL_FRONT_AND_BACK, colour_material_mode = GL_AMBIENT_AND_DIFFUSE;
         GLenum alpha_function = GL_ALWAYS;
         GLclampf alpha_reference = 0;
-        GLenum blend_source = GL_ONE, blend_destination = GL_ZERO;
-        bool mask_shows = true, buffer_shows = true; ///< any colour reaches a buffer at all
+        FragmentState fragments;
+        struct {
+            GLboolean red = GL_TRUE, green = GL_TRUE, blue = GL_TRUE, alpha = GL_TRUE;
+        } colour_mask;
+        bool buffer_shows = true; ///< colours reach a buffer at all
+        GLclampf clear_alpha = 0;
         bool own_program = false; ///< a program of the program's is in use; noted in peel passes
         GLenum matrix_mode = GL_MODELVIEW;
     };
     Values program;
     bool saw_own_program = false; ///< what was drawn by it is missing
+    bool saw_blending = false;    ///< the colours are not yet what the program would leave
+    int depth_clears = 0;
 
     void push(GLbitfield mask); ///< call before GL's own
     void pop();                 ///< call after GL's own
 
     void apply_alpha() const;           ///< alpha test, from alpha test, blending and what is shown
+    void apply_order();                 ///< which of the fragments at one depth stay, and how they mix
+    void apply_fragments();             ///< both
     void apply_colour_material() const; ///< colour pass only
     void apply_lighting() const;        ///< normal pass only: white when lit, black when not
-    void apply() const;                 ///< all of them
+    void apply();                       ///< all of them
+    /// The program clears: what that means where depths are equal.
+    void cleared(GLbitfield buffers);
 
   private:
     struct Saved {
         GLbitfield mask;
         Values values;
     };
+    bool shows() const;
+    void order_by_depth() const;
+    void order_by_stencil() const;
+
     const GlTable& real;
     PassKind kind;
+    GLenum depth;
     std::size_t stack_limit = 16;
     std::vector<Saved> stack;
 };

@@ -63,13 +63,17 @@ constexpr Rule rules[] = {
      drop<&G::DepthRange, &G::DepthRangef, &G::DepthRangefOES, &G::DepthRangedNV, &G::DepthRangeArrayv,
           &G::DepthRangeIndexed, &G::ClipControl>,
      "depth runs 0..1 through the box"},
-    {in_both, drop<&G::DepthFunc, &G::DepthMask, &G::DepthBoundsEXT, &G::DepthBoundsdNV>,
-     "one test for each side"},
+    {in_both, drop<&G::DepthBoundsEXT, &G::DepthBoundsdNV>, "one test for each side"},
+    {in_both, replace<forced::depth_func, &G::DepthFunc>,
+     "one test for each side; the program's among equals"},
+    {in_both, replace<forced::depth_mask, &G::DepthMask>,
+     "one test for each side; the program's among equals"},
+    {in_both, replace<forced::stencil_func, &G::StencilFunc>, "a shadow is not a colour"},
+    {in_both, replace<forced::stencil_func_separate, &G::StencilFuncSeparate>, "a shadow is not a colour"},
     {in_both,
-     drop<&G::StencilFunc, &G::StencilFuncSeparate, &G::StencilFuncSeparateATI, &G::StencilOp,
-          &G::StencilOpSeparate, &G::StencilOpSeparateATI, &G::StencilMask, &G::StencilMaskSeparate,
-          &G::ActiveStencilFaceEXT>,
-     "the first fragment counts"},
+     drop<&G::StencilFuncSeparateATI, &G::StencilOp, &G::StencilOpSeparate, &G::StencilOpSeparateATI,
+          &G::StencilMask, &G::StencilMaskSeparate, &G::ActiveStencilFaceEXT>,
+     "it tells which of the fragments at one depth count"},
     {in_both, drop<&G::PolygonMode, &G::EdgeFlag, &G::EdgeFlagv>, "filled; points while the box is found"},
     {in_both,
      drop<&G::PolygonOffset, &G::PolygonOffsetEXT, &G::PolygonOffsetClamp, &G::PolygonOffsetClampEXT>,
@@ -81,21 +85,28 @@ constexpr Rule rules[] = {
     {in_both, replace<forced::front_face, &G::FrontFace>, "winding is reversed in mirrored views"},
 
     // What the fragment becomes: its own colour, or nothing.
-    {in_both, replace<forced::colour_mask, &G::ColorMask>, "drawn without a colour is not shown"},
+    {in_both, replace<forced::colour_mask, &G::ColorMask>,
+     "drawn without a colour is not shown; the program's among equals"},
     {in_both, drop<&G::ColorMaski, &G::ColorMaskIndexedEXT, &G::IndexMask>, "our framebuffer"},
     {in_both, replace<forced::alpha_func, &G::AlphaFunc>, "holes stay holes"},
-    {in_both, replace<forced::blend_func, &G::BlendFunc>, "under half opaque is not solid"},
+    {in_both, replace<forced::blend_func, &G::BlendFunc>,
+     "under half opaque is not solid; the program's among equals"},
     {in_both,
      replace<forced::blend_func_separate, &G::BlendFuncSeparate, &G::BlendFuncSeparateEXT,
              &G::BlendFuncSeparateINGR>,
-     "under half opaque is not solid"},
+     "under half opaque is not solid; the program's among equals"},
+    {in_both, replace<forced::blend_func_indexed, &G::BlendFunci, &G::BlendFunciARB>,
+     "the same for our one buffer"},
+    {in_both, replace<forced::blend_equation, &G::BlendEquation, &G::BlendEquationEXT>,
+     "the program's among equals"},
     {in_both,
-     drop<&G::BlendFunci, &G::BlendFunciARB, &G::BlendFuncSeparatei, &G::BlendFuncSeparateiARB,
-          &G::BlendEquation, &G::BlendEquationEXT, &G::BlendEquationSeparate, &G::BlendEquationSeparateEXT,
-          &G::BlendEquationi, &G::BlendEquationiARB, &G::BlendEquationSeparatei,
-          &G::BlendEquationSeparateiARB, &G::BlendColor, &G::BlendColorEXT>,
-     "nothing blends"},
-    {in_both, drop<&G::LogicOp>, "nothing blends"},
+     replace<forced::blend_equation_separate, &G::BlendEquationSeparate, &G::BlendEquationSeparateEXT>,
+     "the program's among equals"},
+    {in_both,
+     drop<&G::BlendFuncSeparatei, &G::BlendFuncSeparateiARB, &G::BlendEquationi, &G::BlendEquationiARB,
+          &G::BlendEquationSeparatei, &G::BlendEquationSeparateiARB>,
+     "one buffer"},
+    {in_both, drop<&G::LogicOp>, "colour of the surface"},
     {in_both, drop<&G::Fogf, &G::Fogfv, &G::Fogi, &G::Fogiv>, "colour of the surface"},
     {in_both, drop<&G::ClampColor, &G::ClampColorARB>, "colours are 0..1, normals have signs"},
 
@@ -129,12 +140,15 @@ constexpr Rule rules[] = {
           &G::RenderbufferStorageMultisampleEXT>,
      "our framebuffer"},
     {in_both,
-     drop<&G::Clear, &G::ClearBufferfi, &G::ClearBufferfv, &G::ClearBufferiv, &G::ClearBufferuiv,
+     drop<&G::ClearBufferfi, &G::ClearBufferfv, &G::ClearBufferiv, &G::ClearBufferuiv,
           &G::ClearNamedFramebufferfi, &G::ClearNamedFramebufferfv, &G::ClearNamedFramebufferiv,
-          &G::ClearNamedFramebufferuiv, &G::ClearColor, &G::ClearColorIiEXT, &G::ClearColorIuiEXT,
-          &G::ClearIndex, &G::ClearDepth, &G::ClearDepthf, &G::ClearDepthfOES, &G::ClearDepthdNV,
-          &G::ClearStencil, &G::ClearAccum>,
+          &G::ClearNamedFramebufferuiv, &G::ClearColorIiEXT, &G::ClearColorIuiEXT, &G::ClearIndex,
+          &G::ClearDepth, &G::ClearDepthf, &G::ClearDepthfOES, &G::ClearDepthdNV, &G::ClearStencil,
+          &G::ClearAccum>,
      "cleared once, by the pass"},
+    {in_both, replace<forced::clear, &G::Clear>,
+     "cleared once, by the pass; what depth was there among equals"},
+    {in_both, replace<forced::clear_color, &G::ClearColor>, "cleared once, by the pass"},
     {in_both, drop<&G::Accum, &G::Bitmap, &G::DrawPixels, &G::CopyPixels>, "flat drawing is not solid"},
     {in_both, drop<&G::ReadBuffer, &G::ReadPixels, &G::ReadnPixels, &G::ReadnPixelsARB>, "only we read"},
     {in_both,
@@ -222,11 +236,11 @@ constexpr Rule rules[] = {
 
 } // namespace
 
-ForcedTable::ForcedTable(const GlTable& real, PassKind kind, bool mirrored)
-    : real(real), kind(kind), mirrored(mirrored), state(real, kind), forced(real) {
-    const unsigned pass = kind == PassKind::normal   ? in_normal
-                          : kind == PassKind::colour ? in_colour
-                                                     : in_colour | in_peel;
+ForcedTable::ForcedTable(const GlTable& real, PassKind kind, bool mirrored, GLenum depth)
+    : real(real), kind(kind), mirrored(mirrored), state(real, kind, depth), forced(real) {
+    const unsigned pass = kind == PassKind::normal ? in_normal
+                          : kind == PassKind::peel ? in_colour | in_peel
+                                                   : in_colour;
     for (const Rule& rule : rules)
         if (rule.passes & pass) rule.install(forced);
     current_table = this;

@@ -111,7 +111,6 @@ void polygons(const GlTable& gl) {
 void logic(const GlTable& gl) {
     gl.Enable(GL_COLOR_LOGIC_OP);
     gl.LogicOp(GL_INVERT);
-    gl.BlendEquation(GL_FUNC_REVERSE_SUBTRACT);
     gl.BlendColor(1, 0, 0, 1);
 }
 
@@ -148,8 +147,8 @@ const std::vector<HostileCall>& hostile_calls() {
         {"colour mask", [](const GlTable& gl) { gl.ColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE); }},
         {"fog", fog},
         {"lights", light},
-        {"logic op and blending", logic, true},
-        {"additive blending", [](const GlTable& gl) { gl.Enable(GL_BLEND), gl.BlendFunc(GL_ONE, GL_ONE); }},
+        {"logic op and blend colour", logic, true},
+        {"additive blending", [](const GlTable& gl) { gl.Enable(GL_BLEND), gl.BlendFunc(GL_ONE, GL_ONE); }, true},
         {"dither", [](const GlTable& gl) { gl.Enable(GL_DITHER); }, true},
         {"culling", [](const GlTable& gl) { gl.Enable(GL_CULL_FACE), gl.CullFace(GL_FRONT); }},
         {"polygon offset", polygon_offset},
