@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
+#include <set>
 
-#include "capture/exr_compress.h"
+#include "capture/band_writer.h"
 #include "capture/exr_header.h"
 #include "capture/output_file.h"
 
@@ -23,8 +25,7 @@ constexpr int channel_count = std::size(channel_table);
 
 struct Part {
     View view;
-    int covered = 0, with_normal = 0;    ///< pixels
-    std::vector<std::uint64_t> chunk_at; ///< file offset of each chunk
+    int covered = 0, with_normal = 0; ///< pixels
 };
 
 int chunks_per_part(int n) {
@@ -167,10 +168,8 @@ struct CaptureWriter::Impl {
     OutputFile file;
     std::vector<Part> parts;
     std::size_t header_room = 0;
-    const std::vector<exr::Channel> channels{std::begin(channel_table), std::end(channel_table)};
-    std::vector<std::vector<float>> planes; ///< of the band that is compressed
-    /// Chunks that show nothing, by side and number of lines: most of an inner layer is such.
-    std::map<std::pair<Side, int>, exr::Chunk> blank_chunks;
+    std::optional<BandWriter> bands;
+    std::set<std::pair<Side, int>> blanks_given; ///< by the number of lines
     std::string error;
 
     Impl(std::string path, const CaptureInfo& capture, int part_count)
@@ -181,6 +180,10 @@ struct CaptureWriter::Impl {
         return false;
     }
     bool file_failed() { return fail(file.error()); }
+    bool bands_failed() {
+        bands->drain();
+        return fail(bands->error());
+    }
 
     bool start();
     bool has(const View& view) const {
@@ -189,9 +192,7 @@ struct CaptureWriter::Impl {
     bool check(const ViewImage& image);
     bool check_layer(const View& view);
     bool add(const ViewImage& image);
-    bool compress_lines(const ViewImage& image, int line, int lines, Part& part,
-                        std::vector<exr::Chunk>& chunks);
-    bool write_chunks(const std::vector<exr::Chunk>& chunks, Part& part);
+    bool add_lines(const ViewImage& image, int line, int lines, Part& part);
     bool count_layers(Layers layers, LayerMethod method);
     bool finish(Layers layers, LayerMethod method);
 };
@@ -205,7 +206,10 @@ bool CaptureWriter::Impl::start() {
     if (most > 3 * (max_layers + 1)) return fail("too many layers");
     header_room = room_for_headers(info, static_cast<int>(most));
     const std::size_t tables = most * static_cast<std::size_t>(chunks_per_part(info.n)) * 8;
-    return file.skip_to(header_room + tables) || file_failed();
+    if (!file.skip_to(header_room + tables)) return file_failed();
+    const BandFormat format{info.n, {std::begin(channel_table), std::end(channel_table)}, compression};
+    bands.emplace(file, format, chunks_per_part(info.n));
+    return true;
 }
 
 bool CaptureWriter::Impl::check_layer(const View& view) {
@@ -235,49 +239,26 @@ bool shows_nothing(const ViewImage& image, int line, int lines) {
                         [](const glm::vec4& c) { return c.a > 0; });
 }
 
-bool CaptureWriter::Impl::compress_lines(const ViewImage& image, int line, int lines, Part& part,
-                                         std::vector<exr::Chunk>& chunks) {
-    const int n = info.n;
-    chunks.clear();
-    const bool blank = shows_nothing(image, line, lines);
-    exr::Chunk& as_before = blank_chunks[{image.view.side, lines}];
-    if (blank && !as_before.bytes.empty()) {
-        chunks.push_back(as_before);
-        chunks.back().first_line = line;
-        return true;
-    }
-    for (int k = 0; k < lines; ++k) put_row(image, n - 1 - (line + k), k, planes, part);
-    std::string why;
-    if (!exr::compress_band(channels, planes, n, lines, line, compression, chunks, why)) return fail(why);
-    if (blank) as_before = chunks.front();
-    return true;
+bool CaptureWriter::Impl::add_lines(const ViewImage& image, int line, int lines, Part& part) {
+    Band band = bands->next();
+    band.part = static_cast<int>(parts.size());
+    band.first_line = line;
+    band.lines = lines;
+    band.blank.reset();
+    if (shows_nothing(image, line, lines)) band.blank = image.view.side;
+    const bool known = band.blank && !blanks_given.insert({image.view.side, lines}).second;
+    for (int k = 0; k < lines && !known; ++k) put_row(image, info.n - 1 - (line + k), k, band.planes, part);
+    return bands->put(std::move(band)) || bands_failed();
 }
 
 bool CaptureWriter::Impl::add(const ViewImage& image) {
     if (!error.empty() || !check(image)) return false;
     const int n = info.n, most_lines = exr::lines_per_chunk(compression);
-    planes.resize(channel_count, std::vector<float>(static_cast<std::size_t>(most_lines) * n));
-    std::vector<exr::Chunk> chunks;
     Part part;
     part.view = image.view;
-    for (int line = 0; line < n; line += most_lines) {
-        if (!compress_lines(image, line, std::min(most_lines, n - line), part, chunks)) return false;
-        if (!write_chunks(chunks, part)) return file_failed();
-    }
-    parts.push_back(std::move(part));
-    return true;
-}
-
-bool CaptureWriter::Impl::write_chunks(const std::vector<exr::Chunk>& chunks, Part& part) {
-    for (const exr::Chunk& chunk : chunks) {
-        part.chunk_at.push_back(file.position());
-        Bytes head;
-        head.u32(static_cast<std::uint32_t>(parts.size()));
-        head.u32(static_cast<std::uint32_t>(chunk.first_line));
-        head.u32(static_cast<std::uint32_t>(chunk.bytes.size()));
-        if (!file.append(head.data.data(), head.data.size())) return false;
-        if (!file.append(chunk.bytes.data(), chunk.bytes.size())) return false;
-    }
+    for (int line = 0; line < n; line += most_lines)
+        if (!add_lines(image, line, std::min(most_lines, n - line), part)) return false;
+    parts.push_back(part);
     return true;
 }
 
@@ -294,6 +275,7 @@ bool CaptureWriter::Impl::count_layers(Layers layers, LayerMethod method) {
 
 bool CaptureWriter::Impl::finish(Layers layers, LayerMethod method) {
     if (!error.empty()) return false;
+    if (!bands->drain()) return bands_failed();
     for (Axis axis : {Axis::x, Axis::y, Axis::z})
         for (Side side : {Side::minus, Side::plus}) {
             const View view{axis, side, 0};
@@ -302,8 +284,8 @@ bool CaptureWriter::Impl::finish(Layers layers, LayerMethod method) {
     if (!count_layers(layers, method)) return false;
     Bytes front = all_headers(info, parts);
     if (front.data.size() > header_room) return fail("the headers are longer than the room kept for them");
-    for (const Part& part : parts)
-        for (std::uint64_t at : part.chunk_at) front.u64(at);
+    for (int part = 0; part < static_cast<int>(parts.size()); ++part)
+        for (std::uint64_t at : bands->chunks_of(part)) front.u64(at);
     // What is left before the first chunk stays a gap of zeros; readers follow the offset tables.
     return (file.write_at(0, front.data.data(), front.data.size()) && file.commit()) || file_failed();
 }

@@ -38,7 +38,8 @@ const char* layers_name(Layers layers);
 const char* layer_method_name(LayerMethod method);
 
 /// Writes to a temporary name beside `path` and renames in finish(); without finish() nothing is left.
-/// Each part is compressed as it is added, so at most one part is held uncompressed. Never throws.
+/// Parts are compressed on a thread of the writer's own (capture/band_writer.h), which lives until finish();
+/// at most the lines of one part wait for it uncompressed. Never throws.
 class CaptureWriter {
   public:
     /// `most_parts`: how many images there may be. Room is kept for their headers: a hole in the file where

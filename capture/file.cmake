@@ -3,6 +3,7 @@
 find_library(GLCAST_ZLIB_STATIC libz.a REQUIRED)
 
 add_library(glcast_capture_file STATIC
+    band_writer.cpp band_writer.h
     capture_file.cpp capture_file.h
     exr_compress.cpp exr_compress.h
     exr_header.cpp exr_header.h

@@ -26,7 +26,9 @@ namespace {
     X(eglReleaseThread)                                                                                      \
     X(eglSwapBuffers)                                                                                        \
     X(eglSwapBuffersWithDamageKHR)                                                                           \
-    X(eglSwapBuffersWithDamageEXT)
+    X(eglSwapBuffersWithDamageEXT)                                                                           \
+    X(eglWaitGL)                                                                                             \
+    X(eglWaitClient)
 
 #define GLCAST_EGL_QUERIES(X)                                                                                \
     X(eglBindAPI)                                                                                            \
@@ -185,6 +187,20 @@ GLCAST_EXPORT EGLBoolean eglSwapBuffersWithDamageEXT(EGLDisplay display, EGLSurf
                                                      const EGLint* rects, EGLint count) {
     if (!real().eglSwapBuffersWithDamageEXT) return EGL_FALSE;
     return swap(surface, [=] { return real().eglSwapBuffersWithDamageEXT(display, surface, rects, count); });
+}
+
+GLCAST_EXPORT EGLBoolean eglWaitGL() {
+    const Outermost outermost;
+    const EGLBoolean done = real().eglWaitGL();
+    if (outermost) flushed();
+    return done;
+}
+
+GLCAST_EXPORT EGLBoolean eglWaitClient() {
+    const Outermost outermost;
+    const EGLBoolean done = real().eglWaitClient();
+    if (outermost) flushed();
+    return done;
 }
 
 } // extern "C"

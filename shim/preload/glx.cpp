@@ -18,6 +18,7 @@ GLXContext glXCreateContextAttribsARB(Display*, GLXFBConfig, GLXContext, Bool, c
 GLXContext glXCreateContextWithConfigSGIX(Display*, GLXFBConfig, int, GLXContext, Bool);
 Bool glXMakeCurrentReadSGI(Display*, GLXDrawable, GLXDrawable, GLXContext);
 int64_t glXSwapBuffersMscOML(Display*, GLXDrawable, int64_t, int64_t, int64_t);
+void glXCopySubBufferMESA(Display*, GLXDrawable, int, int, int, int);
 }
 
 namespace glcast::preload {
@@ -37,6 +38,7 @@ namespace {
     X(glXMakeCurrentReadSGI)                                                                                 \
     X(glXSwapBuffers)                                                                                        \
     X(glXSwapBuffersMscOML)                                                                                  \
+    X(glXCopySubBufferMESA)                                                                                  \
     X(glXWaitGL)                                                                                             \
     X(glXUseXFont)
 
@@ -266,6 +268,12 @@ GLCAST_EXPORT int64_t glXSwapBuffersMscOML(Display* display, GLXDrawable drawabl
     if (!real().glXSwapBuffersMscOML) return -1;
     return swap(drawable,
                 [=] { return real().glXSwapBuffersMscOML(display, drawable, target, divisor, remainder); });
+}
+
+/// Shows a part, from which a program may make up its picture: what it drew for all of it is cast at the first.
+GLCAST_EXPORT void glXCopySubBufferMESA(Display* display, GLXDrawable drawable, int x, int y, int width, int height) {
+    if (!real().glXCopySubBufferMESA) return;
+    swap(drawable, [=] { real().glXCopySubBufferMESA(display, drawable, x, y, width, height); });
 }
 
 GLCAST_EXPORT void glXWaitGL() {

@@ -9,7 +9,7 @@ add_library(overhead_pass_through MODULE overhead_pass_through.c)
 target_link_libraries(overhead_pass_through PRIVATE ${CMAKE_DL_LIBS})
 target_compile_options(overhead_pass_through PRIVATE -O2)
 
-add_executable(overhead overhead.cpp)
+add_executable(overhead overhead.cpp overhead_gears.cpp overhead_gears.h)
 target_link_libraries(overhead PRIVATE glcast_test_x)
 target_compile_definitions(overhead PRIVATE
     GLCAST_SHIM="$<TARGET_FILE:glcast_preload>"

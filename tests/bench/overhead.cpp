@@ -4,9 +4,12 @@
 //
 // ROUNDS 0: only the memory that a display list of a million vertices takes.
 //
-//     overhead [ROUNDS] [--glxgears] [--capture]
+//     overhead [ROUNDS] [--glxgears] [--capture] [--only]
 //
-// --glxgears: also frames a second of glxgears, plain and with idle glcast.
+// --only: what is asked for by such words, and not the cost of calls and the memory of lists.
+//
+// --glxgears: also glxgears, plain and with idle glcast: frames a second, processor time a frame, and the
+// median of their ratios over rounds of both (21 s each), which a noisy machine disturbs least.
 // --capture: also a capture of glxgears (n = 512) against its own frame in a window of 512 x 512.
 #include <unistd.h>
 
@@ -17,6 +20,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "tests/bench/overhead_gears.h"
 #include "tests/support/xvfb.h"
 
 namespace {
@@ -86,22 +90,30 @@ void measure_calls(const Xvfb& server, const TemporaryFolder& folder, int rounds
     }
 }
 
+/// All kinds one after the other in each round, each in turn first. The two-line preload tells what is noise.
 void measure_glxgears(const Xvfb& server, const TemporaryFolder& folder, int rounds) {
-    std::vector<Kind> kinds = make_kinds(folder);
-    kinds = {kinds[0], kinds[3]};
-    const std::regex fps("= ([0-9.]+) FPS");
-    for (int round = 0; round < rounds; ++round)
-        for (Kind& kind : kinds) {
-            const Outcome outcome = run_kind(kind, server, {"glxgears"}, 11);
-            std::smatch match;
-            if (std::regex_search(outcome.out, match, fps))
-                kind.results.push_back(std::strtod(match[1].str().c_str(), nullptr));
+    const std::vector<Kind> all = make_kinds(folder);
+    const std::vector<const Kind*> kinds = {&all[0], &all[1], &all[3]};
+    std::vector<std::vector<double>> wall(kinds.size()), processor(kinds.size());
+    for (std::size_t round = 0; round < std::size_t(rounds); ++round)
+        for (std::size_t turn = 0; turn < kinds.size(); ++turn) {
+            const std::size_t k = (round + turn) % kinds.size();
+            Variables environment = {{"DISPLAY", server.display()},
+                                     {"LIBGL_ALWAYS_SOFTWARE", "1"},
+                                     {"LP_NUM_THREADS", "1"},
+                                     {"vblank_mode", "0"}};
+            environment.insert(environment.end(), kinds[k]->variables.begin(), kinds[k]->variables.end());
+            const GearsFrame frame = measure_gears(environment);
+            wall[k].push_back(frame.wall_seconds);
+            processor[k].push_back(frame.processor_seconds);
         }
-    for (const Kind& kind : kinds) {
-        if (kind.results.empty()) continue;
-        const double most = *std::max_element(kind.results.begin(), kind.results.end());
-        std::printf("glxgears, %-36s median %7.1f, most %7.1f frames a second\n", kind.name,
-                    median(kind.results), most);
+    std::printf("%-40s %12s %12s %26s %26s   %d rounds\n", "glxgears, a frame, medians", "wall ms",
+                "processor ms", "plain / it, wall", "plain / it, processor", rounds);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const Ratio speed = ratio_of(wall[k], wall[0]), work = ratio_of(processor[k], processor[0]);
+        std::printf("%-40s %12.4f %12.4f     %.3f (%.3f to %.3f)     %.3f (%.3f to %.3f)\n", kinds[k]->name,
+                    1e3 * median(wall[k]), 1e3 * median(processor[k]), speed.median, speed.lower, speed.upper,
+                    work.median, work.lower, work.upper);
     }
 }
 
@@ -160,18 +172,20 @@ void measure_list_memory(const Xvfb& server, const TemporaryFolder& folder) {
 
 int main(int argc, char** argv) {
     int rounds = 5;
-    bool gears = false, capture = false;
+    bool gears = false, capture = false, only = false;
     for (int i = 1; i < argc; ++i)
         if (std::strcmp(argv[i], "--glxgears") == 0)
             gears = true;
         else if (std::strcmp(argv[i], "--capture") == 0)
             capture = true;
+        else if (std::strcmp(argv[i], "--only") == 0)
+            only = true;
         else
             rounds = std::max(0, std::atoi(argv[i]));
     const Xvfb server;
     const TemporaryFolder folder;
-    measure_list_memory(server, folder);
-    if (rounds > 0) measure_calls(server, folder, rounds);
+    if (!only) measure_list_memory(server, folder);
+    if (rounds > 0 && !only) measure_calls(server, folder, rounds);
     if (gears) measure_glxgears(server, folder, rounds);
     if (capture) measure_capture(server, folder, std::max(1, rounds));
 }

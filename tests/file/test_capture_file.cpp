@@ -1,6 +1,8 @@
 // The capture file: round trip, other people's readers, and everything that must be refused.
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -10,6 +12,19 @@
 
 using namespace glcast;
 using namespace glcast::samples;
+
+namespace {
+bool threads_are_refused = false;
+}
+
+/// Stands before the C library's.
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
+                              void* argument) {
+    if (threads_are_refused) return EAGAIN;
+    using Create = decltype(&pthread_create);
+    static const auto real = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
+    return real(thread, attributes, run, argument);
+}
 
 namespace {
 
@@ -298,6 +313,39 @@ TEST(CaptureFile, DiskFull) {
     signal(SIGXFSZ, handler);
     EXPECT_NE(why.find("big.exr"), std::string::npos) << why;
     EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(CaptureFile, TheSameBytesWhereNoThreadCanBeHad) {
+    const Folder folder;
+    threads_are_refused = true;
+    const std::string why = write_sphere(folder / "alone.exr", 100);
+    threads_are_refused = false;
+    ASSERT_EQ(why, "");
+    ASSERT_EQ(write_sphere(folder / "beside.exr", 100), "");
+    EXPECT_TRUE(read_text(folder / "alone.exr") == read_text(folder / "beside.exr"));
+}
+
+/// Chunks of background alone are made once: between others, of both sides, and of the last lines, which are
+/// fewer.
+TEST(CaptureFile, BackgroundBetweenWhatIsSeen) {
+    constexpr int n = 100;
+    const Folder folder;
+    std::vector<ViewImage> images;
+    CaptureWriter writer(folder / "rows.exr", sphere_info(n), 6);
+    for (const View& view : six_views()) {
+        ViewImage image = blank_image(view, n);
+        for (const int row : {3, 50, int(view.axis) == 1 ? 99 : 51})
+            image.colour[std::size_t(row) * n + 7] = glm::vec4(1),
+                                                image.depth[std::size_t(row) * n + 7] = 0.25f;
+        ASSERT_TRUE(writer.add(image)) << writer.error();
+        images.push_back(std::move(image));
+    }
+    ASSERT_TRUE(writer.finish()) << writer.error();
+    const Capture capture = read_capture(folder / "rows.exr");
+    for (const ViewImage& image : images) {
+        EXPECT_EQ(view_of(capture, image.view).depth, image.depth);
+        EXPECT_EQ(view_of(capture, image.view).colour, image.colour);
+    }
 }
 
 TEST(CaptureFile, EveryTruncationIsRefused) {

@@ -3,6 +3,8 @@
 #include "cube.h"
 
 #include <GL/gl.h>
+#include <stdint.h>
+#include <string.h>
 #ifdef CUBE_EGL
 #include <EGL/egl.h>
 #else
@@ -35,6 +37,15 @@ static void set_camera(void) {
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     glTranslatef(0, 0, -6);
+}
+
+const char* frame_end = "swap";
+
+static int draws_to(const char* buffer) { return strncmp(frame_end, buffer, strlen(buffer)) == 0; }
+
+static const char* end_call(void) {
+    const char* space = strchr(frame_end, ' ');
+    return space ? space + 1 : frame_end;
 }
 
 typedef struct {
@@ -76,7 +87,22 @@ static int open_gl(Place* s) {
     s->context = eglCreateContext(s->egl, s->config, EGL_NO_CONTEXT, 0);
     return eglMakeCurrent(s->egl, s->surface, s->surface, s->context) ? 0 : 12;
 }
-static void swap(Place* s) { eglSwapBuffers(s->egl, s->surface); }
+
+/// False when it cannot be called.
+static int end_by_system(Place* s, const char* how) {
+    typedef EGLBoolean (*WithDamage)(EGLDisplay, EGLSurface, const EGLint*, EGLint);
+    const EGLint all[] = {0, 0, 100, 100};
+    const int khr = strcmp(how, "damage-khr") == 0;
+    if (strcmp(how, "swap") == 0) return eglSwapBuffers(s->egl, s->surface);
+    if (strcmp(how, "wait") == 0) return eglWaitGL();
+    if (strcmp(how, "wait-client") == 0) return eglWaitClient();
+    if (khr || strcmp(how, "damage-ext") == 0) {
+        const WithDamage swap = (WithDamage)eglGetProcAddress(khr ? "eglSwapBuffersWithDamageKHR"
+                                                                  : "eglSwapBuffersWithDamageEXT");
+        return swap && swap(s->egl, s->surface, all, 1);
+    }
+    return 0;
+}
 static void close_gl(Place* s) {
     eglMakeCurrent(s->egl, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(s->egl, s->context);
@@ -84,7 +110,8 @@ static void close_gl(Place* s) {
 }
 #else
 static int open_gl(Place* s) {
-    int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
+    int attributes[] = {GLX_RGBA, GLX_DEPTH_SIZE, 16, GLX_DOUBLEBUFFER, None};
+    if (draws_to("single ")) attributes[3] = None;
     XVisualInfo* visual = glXChooseVisual(s->display, DefaultScreen(s->display), attributes);
     if (!visual) return 11;
     open_window(s, visual);
@@ -92,12 +119,36 @@ static int open_gl(Place* s) {
     XFree(visual);
     return s->context && glXMakeCurrent(s->display, s->window, s->context) ? 0 : 12;
 }
-static void swap(Place* s) { glXSwapBuffers(s->display, s->window); }
+
+/// False when it cannot be called.
+static int end_by_system(Place* s, const char* how) {
+    typedef int64_t (*Msc)(Display*, GLXDrawable, int64_t, int64_t, int64_t);
+    typedef void (*Copy)(Display*, GLXDrawable, int, int, int, int);
+    if (strcmp(how, "swap") == 0) return glXSwapBuffers(s->display, s->window), 1;
+    if (strcmp(how, "wait") == 0) return glXWaitGL(), 1;
+    if (strcmp(how, "msc") == 0) {
+        const Msc swap = (Msc)glXGetProcAddressARB((const GLubyte*)"glXSwapBuffersMscOML");
+        return swap && swap(s->display, s->window, 0, 0, 0) != -1;
+    }
+    if (strcmp(how, "copy") == 0) {
+        const Copy copy = (Copy)glXGetProcAddressARB((const GLubyte*)"glXCopySubBufferMESA");
+        if (copy) copy(s->display, s->window, 0, 0, 100, 100);
+        return copy != 0;
+    }
+    return 0;
+}
 static void close_gl(Place* s) {
     glXMakeCurrent(s->display, None, 0);
     glXDestroyContext(s->display, s->context);
 }
 #endif
+
+static int end_of_frame(Place* s) {
+    const char* how = end_call();
+    if (strcmp(how, "flush") == 0) return glFlush(), 1;
+    if (strcmp(how, "finish") == 0) return glFinish(), 1;
+    return end_by_system(s, how);
+}
 
 int draw_cubes(int frames, void (*before_frame)(int frame)) {
     Place screen = {0};
@@ -106,11 +157,12 @@ int draw_cubes(int frames, void (*before_frame)(int frame)) {
     const int failed = open_gl(&screen);
     if (failed) return failed;
     set_camera();
+    if (draws_to("front ")) glDrawBuffer(GL_FRONT);
     for (int frame = 1; frame <= frames; ++frame) {
         if (before_frame) before_frame(frame);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         if (frame > 1) draw_cube();
-        swap(&screen);
+        if (!end_of_frame(&screen)) return 13;
     }
     close_gl(&screen);
     XCloseDisplay(screen.display);
