@@ -1,9 +1,16 @@
 // The run of edge collapses behind simplify(). Internal.
+//
+// A large surface is collapsed in rounds. In each it is cut into tiles, and tile by tile, on all cores, every
+// edge inside a tile that costs no more than the round's price collapses, cheapest first; the rims stay. The
+// next round has a higher price and other tiles. What is small, or near its target, is one patch without
+// rims. Tiles, prices and order do not depend on threads.
 #pragma once
 #include <cstdint>
 #include <memory>
 
 #include "tools/mesh/mesh.h"
+#include "tools/simplify/collapse_log.h"
+#include "tools/simplify/surface.h"
 
 namespace glcast {
 
@@ -22,17 +29,23 @@ class Collapser {
         std::size_t triangles = SIZE_MAX, edges = SIZE_MAX;
     };
 
-    /// `mesh` must be a two-manifold, closed or with boundaries, and must outlive this.
-    explicit Collapser(const Mesh& mesh);
-    ~Collapser();
+    /// What has been collapsed so far; colours and normals are left to whoever needs them.
+    struct Log {
+        CollapseLog collapses;
+        std::vector<std::uint32_t> sources; ///< of each: a vertex of the mesh near the new one
+    };
+
+    /// `mesh` must be a two-manifold, closed or with boundaries, with `have` edges and triangles, and must
+    /// outlive this.
+    static std::unique_ptr<Collapser> make(const Mesh& mesh, const Limit& have,
+                                           const AttributeWeights& weights, bool keep_log);
+    virtual ~Collapser() = default;
 
     /// Collapse edges, cheapest first, until the limit is kept, or no edge may collapse.
-    void reduce_to(const Limit& limit);
-    Remainder remainder();
-
-  private:
-    struct Impl;
-    std::unique_ptr<Impl> impl;
+    virtual void reduce_to(const Limit& limit) = 0;
+    virtual Remainder remainder() const = 0;
+    virtual std::size_t collapses() const = 0; ///< so far
+    virtual Log take_log() = 0;                ///< empty unless it was to be kept
 };
 
 } // namespace glcast

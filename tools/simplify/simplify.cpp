@@ -51,10 +51,21 @@ Mesh finished(Collapser::Remainder&& remainder, const SurfaceWalk& walk, const S
     return mesh;
 }
 
+CollapseLog finished(Collapser::Log&& from, const SurfaceWalk& walk) {
+    Mesh points;
+    for (const Collapse& collapse : from.collapses) points.positions.push_back(collapse.position);
+    walk.take_attributes(points, from.sources);
+    for (std::size_t k = 0; k < from.collapses.size(); ++k) {
+        if (!points.colours.empty()) from.collapses[k].colour = points.colours[k];
+        if (!points.normals.empty()) from.collapses[k].normal = points.normals[k];
+    }
+    return std::move(from.collapses);
+}
+
 } // namespace
 
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
-                                  const SimplifyOptions& options) {
+                                  const SimplifyOptions& options, CollapseLog* log) {
     const MeshCheck have = check_mesh(mesh);
     std::vector<Collapser::Limit> limits(targets.size());
     std::transform(targets.begin(), targets.end(), limits.begin(),
@@ -69,18 +80,23 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
 
     std::vector<Mesh> levels(targets.size(), Mesh{});
     std::unique_ptr<Collapser> collapser;
-    const SurfaceWalk walk(mesh);
+    std::unique_ptr<SurfaceWalk> walk;
+    if (log) log->clear();
     for (const std::size_t level : order) {
         if (keeps(have, limits[level])) {
             levels[level] = mesh;
             continue;
         }
-        if (!collapser) collapser = std::make_unique<Collapser>(mesh);
+        if (!collapser)
+            collapser = Collapser::make(mesh, {have.triangles, have.edges},
+                                        {options.colour_weight, options.normal_weight}, log != nullptr);
         collapser->reduce_to(limits[level]);
         Collapser::Remainder remainder = collapser->remainder();
         if (options.refit) refit(remainder, mesh);
-        levels[level] = finished(std::move(remainder), walk, options);
+        if (!walk) walk = std::make_unique<SurfaceWalk>(mesh);
+        levels[level] = finished(std::move(remainder), *walk, options);
     }
+    if (log && collapser) *log = finished(collapser->take_log(), *walk);
     return levels;
 }
 

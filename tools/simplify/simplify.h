@@ -1,8 +1,10 @@
-// Quadric edge collapse (Garland and Heckbert 1997) on OpenMesh's half-edge mesh, and a fit of what is left.
+// Quadric edge collapse (Garland and Heckbert 1997; colours and normals: Hoppe 1999), and a fit of what is
+// left.
 #pragma once
 #include <span>
 
 #include "tools/mesh/mesh.h"
+#include "tools/simplify/collapse_log.h"
 
 namespace glcast {
 
@@ -17,6 +19,9 @@ struct SimplifyOptions {
     /// After the collapses, lay each level as well as it goes along the surface (Hoppe et al. 1993): about
     /// half the error. Without, levels are what a progressive mesh holds.
     bool refit = true;
+    /// How far a surface may as well be off as have a colour (channel, 0..1) or a normal (component) that is
+    /// off by 1: shares of the longest side of the mesh's box. 0: not looked at.
+    double colour_weight = 0.005, normal_weight = 0.002;
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
@@ -27,8 +32,9 @@ struct SimplifyOptions {
 Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options = {});
 
 /// A mesh per target, in the order of the targets, made by one run of collapses from fine to coarse: as much
-/// work as the coarsest alone.
+/// work as the coarsest alone. `log`, if given, takes all collapses down to the coarsest target: without
+/// refit each level is collapsed(mesh, log, k) bit for bit, k the first number that meets its target.
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
-                                  const SimplifyOptions& options = {});
+                                  const SimplifyOptions& options = {}, CollapseLog* log = nullptr);
 
 } // namespace glcast

@@ -1,0 +1,243 @@
+#include "tools/simplify/patch.h"
+
+#include <bit>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+namespace glcast {
+namespace {
+
+/// Cost and edge in one number that sorts by cost, then by edge: floats that are not negative sort like their
+/// bits. Half the size of a pair, and a heap of plain numbers is several times as fast as one that looks
+/// costs up.
+std::uint64_t entry_of(double cost, std::uint32_t edge) {
+    return std::uint64_t(std::bit_cast<std::uint32_t>(float(cost))) << 32 | edge;
+}
+std::uint32_t edge_of(std::uint64_t entry) { return std::uint32_t(entry & UINT32_MAX); }
+
+/// Squared; 1 is equilateral.
+double squared_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double squared_normal) {
+    const double squares = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
+    return squares > 0 ? 12 * squared_normal / (squares * squares) : 0;
+}
+
+} // namespace
+
+template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
+    at = std::move(corners);
+    find_twins();
+    number_edges();
+    mark.assign(position.size(), 0);
+    near_refused.assign(position.size(), 0);
+}
+
+template <int N> void Patch<N>::find_twins() {
+    std::vector<std::uint32_t> first(position.size() + 1, 0), leaving(at.size());
+    for (const std::uint32_t v : at) ++first[v + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    out.assign(position.size(), none);
+    std::vector<std::uint32_t> end(first.begin(), first.end() - 1);
+    for (std::uint32_t c = 0; c < at.size(); ++c) {
+        leaving[end[at[c]]++] = c;
+        out[at[c]] = c;
+    }
+    twin.assign(at.size(), none);
+    for (std::uint32_t c = 0; c < at.size(); ++c) {
+        const std::uint32_t from = at[c], to = after(c);
+        if (twin[c] != none || from == ghost || to == ghost) continue;
+        for (std::uint32_t i = first[to]; i < first[to + 1]; ++i)
+            if (const std::uint32_t back = leaving[i]; after(back) == from) {
+                twin[c] = back;
+                twin[back] = c;
+                break;
+            }
+    }
+    if (ghost == none) return;
+    // Each vertex of a boundary has one half-edge to the ghost and one from it.
+    std::vector<std::uint32_t> to_ghost(position.size(), none);
+    for (std::uint32_t c = 0; c < at.size(); ++c)
+        if (after(c) == ghost) to_ghost[at[c]] = c;
+    for (std::uint32_t i = first[ghost]; i < first[ghost + 1]; ++i)
+        if (const std::uint32_t back = leaving[i], there = to_ghost[after(back)]; there != none) {
+            twin[back] = there;
+            twin[there] = back;
+        }
+}
+
+template <int N> void Patch<N>::number_edges() {
+    edge.assign(at.size(), none);
+    half.clear();
+    for (std::uint32_t c = 0; c < at.size(); ++c) {
+        if (edge[c] != none || locked[at[c]] || locked[after(c)]) continue;
+        if (twin[c] == none)
+            throw std::logic_error("simplify: a free edge at the rim of its patch: a bug in glcast");
+        edge[c] = edge[twin[c]] = std::uint32_t(half.size());
+        half.push_back(c);
+    }
+    refused.assign(half.size(), 0);
+}
+
+template <int N> Placement Patch<N>::place_edge(std::uint32_t c) const {
+    const std::uint32_t a = at[c], b = after(c);
+    Quadric<N> q = quadrics[a];
+    q += quadrics[b];
+    return place(q.reduced(), position[a], position[b]);
+}
+
+template <int N> std::vector<float> Patch<N>::costs() const {
+    std::vector<float> all(half.size());
+    for (std::size_t e = 0; e < half.size(); ++e) all[e] = float(place_edge(half[e]).cost);
+    return all;
+}
+
+template <int N> void Patch<N>::queue_edges(float dearest) {
+    most = dearest;
+    heap.clear();
+    for (std::uint32_t e = 0; e < half.size(); ++e)
+        if (const double cost = place_edge(half[e]).cost; float(cost) <= most)
+            heap.push_back(entry_of(cost, e));
+    std::make_heap(heap.begin(), heap.end(), std::greater<>());
+}
+
+template <int N> void Patch<N>::push(std::uint32_t e, double cost) {
+    if (float(cost) > most) return;
+    heap.push_back(entry_of(cost, e));
+    std::push_heap(heap.begin(), heap.end(), std::greater<>());
+}
+
+template <int N> typename Patch<N>::Entry Patch<N>::pop() {
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+    const Entry entry = heap.back();
+    heap.pop_back();
+    return entry;
+}
+
+template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
+    while (!heap.empty()) {
+        const std::uint32_t e = edge_of(pop()), c = half[e];
+        if (c == none) continue;
+        const Placement to = place_edge(c);
+        if (!heap.empty() && entry_of(to.cost, e) > heap.front()) {
+            push(e, to.cost);
+            continue;
+        }
+        if (float(to.cost) > most) continue;
+        if (allowed(c, to.point)) {
+            collapse(c, to, step);
+            return true;
+        }
+        refuse(c);
+    }
+    return false;
+}
+
+/// The link condition, and never a tetrahedron: that would leave two triangles back to back.
+template <int N> bool Patch<N>::keeps_manifold(std::uint32_t c) {
+    const std::uint32_t a = at[c], b = after(c);
+    ++marks;
+    int valence = 0, common = 0;
+    around(a, [&](std::uint32_t h) { mark[after(h)] = marks, ++valence; });
+    around(b, [&](std::uint32_t h) { common += mark[after(h)] == marks, ++valence; });
+    return common == 2 && valence > 6;
+}
+
+/// May the triangles around `v`, but for those that hold `other`, be led to `to` instead?
+template <int N>
+bool Patch<N>::keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec3& to) const {
+    const Strictness& rule = strictness[stage];
+    const double squared_cosine = rule.min_cosine * rule.min_cosine,
+                 least_quality = rule.min_quality * rule.min_quality;
+    const glm::dvec3 from = position[v];
+    std::uint32_t c = out[v];
+    do {
+        const std::uint32_t b = at[next(c)], d = at[previous(c)];
+        if (b != other && d != other && b != ghost && d != ghost) {
+            const glm::dvec3 &pb = position[b], &pd = position[d];
+            const glm::dvec3 before = cross(pb - from, pd - from), now = cross(pb - to, pd - to);
+            const double one = dot(before, before), two = dot(now, now), both = dot(before, now);
+            if (both < 0 || both * both < squared_cosine * one * two) return false;
+            const double good = squared_quality(to, pb, pd, two);
+            if (good < least_quality && good < squared_quality(from, pb, pd, one)) return false;
+        }
+        c = twin[previous(c)];
+    } while (c != out[v]);
+    return true;
+}
+
+template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
+    if (!keeps_manifold(c)) return false;
+    const std::uint32_t a = at[c], b = after(c);
+    return stage + 1 == std::size(strictness) || (keeps_shape(a, b, to) && keeps_shape(b, a, to));
+}
+
+template <int N> void Patch<N>::refuse(std::uint32_t c) {
+    refused[edge[c]] = 1;
+    near_refused[at[c]] = near_refused[after(c)] = 1;
+}
+
+/// The triangle of half-edge c, whose two other edges become one.
+template <int N> void Patch<N>::remove_triangle(std::uint32_t c) {
+    const std::uint32_t n = next(c), p = previous(c), one = twin[n], other = twin[p];
+    const std::uint32_t lives = edge[n], dies = edge[p];
+    twin[one] = other;
+    twin[other] = one;
+    if (dies != none) half[dies] = none;
+    if (lives != none) half[lives] = one;
+    edge[one] = edge[other] = lives;
+    out[at[one]] = one; // from the far corner and
+    out[at[other]] = other;
+    at[c] = at[n] = at[p] = none;
+}
+
+template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, Step& step) {
+    const std::uint32_t removed = at[c], kept = after(c), back = twin[c];
+    const auto away = [&](std::uint32_t v) { return dot(source_at[v] - to.point, source_at[v] - to.point); };
+    if (away(removed) < away(kept)) {
+        source[kept] = source[removed];
+        source_at[kept] = source_at[removed];
+    }
+    const bool at_boundary = at[previous(c)] == ghost || at[previous(back)] == ghost;
+    step = {kept, removed, source[kept], float(to.cost), to.point, at_boundary};
+    quadrics[kept] += quadrics[removed];
+    position[kept] = to.point;
+    std::uint32_t h = c;
+    do {
+        at[h] = kept;
+        h = twin[previous(h)];
+    } while (h != c);
+    half[edge[c]] = none;
+    remove_triangle(c);
+    remove_triangle(back);
+    near_refused[kept] |= near_refused[removed];
+    // What was refused near it may be allowed now.
+    queue_at(kept);
+    around(kept, [&](std::uint32_t near) { queue_at(after(near)); });
+}
+
+template <int N> void Patch<N>::queue_again(std::uint32_t e) {
+    if (!refused[e] || half[e] == none) return;
+    refused[e] = 0;
+    push(e, place_edge(half[e]).cost);
+}
+
+template <int N> void Patch<N>::queue_at(std::uint32_t v) {
+    if (!near_refused[v]) return;
+    around(v, [&](std::uint32_t c) {
+        if (edge[c] != none) queue_again(edge[c]);
+    });
+    near_refused[v] = 0;
+}
+
+template <int N> bool Patch<N>::relax() {
+    if (stage + 1 == std::size(strictness)) return false;
+    ++stage;
+    for (std::uint32_t e = 0; e < half.size(); ++e) queue_again(e);
+    return true;
+}
+
+template class Patch<0>;
+template class Patch<3>;
+template class Patch<6>;
+
+} // namespace glcast
