@@ -82,6 +82,7 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
     for (const Level& level : levels) {
         PageLevel& one = described.emplace_back();
         one.mesh = &level.mesh;
+        one.texture = &level.texture;
         one.name = level.name.empty() ? "level " + std::to_string(described.size() - 1) : level.name;
         one.glb_bytes = glb_size(level);
         one.error = level.error;
@@ -107,7 +108,7 @@ void write(const std::string& path, const std::string& html) {
 }
 
 void print_page(const Options& options, const PageInput& input, const Page& page) {
-    Json json = {{"file", options.output}, {"bytes", page.html.size()}, {"views", input.views.size()}};
+    Json json = {{"file", options.output}, {"bytes", page.html.size()}, {"pictureBytes", page.picture_bytes}, {"views", input.views.size()}};
     for (std::size_t k = 0; k < input.levels.size(); ++k) {
         const PageLevel& level = input.levels[k];
         json["levels"].push_back({{"name", level.name},
@@ -116,6 +117,7 @@ void print_page(const Options& options, const PageInput& input, const Page& page
                                   {"glbBytes", level.glb_bytes},
                                   {"pageBytes", page.level_bytes[k]},
                                   {"inPage", page.level_bytes[k] > 0},
+                                  {"textured", level.texture && !level.texture->empty()},
                                   {"meanError", level.error.mean},
                                   {"maxError", level.error.max}});
     }
