@@ -63,15 +63,20 @@ void add_standard(Bytes& to, const CaptureInfo& info, const std::string& name) {
     exr::add_string(to, "type", "scanlineimage");
 }
 
+void add_matrix(Bytes& to, const char* name, const glm::dmat4& matrix) {
+    double rows[16]; // glm keeps columns
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) rows[r * 4 + c] = matrix[c][r];
+    exr::add_m44d(to, name, rows);
+}
+
 void add_capture(Bytes& to, const CaptureInfo& info) {
     exr::add_int(to, "glcast.format", capture_format_version);
     exr::add_int(to, "glcast.n", info.n);
     exr::add_v3d(to, "glcast.boxLo", &info.box.lo.x);
     exr::add_double(to, "glcast.boxSize", info.box.size);
-    double rows[16]; // glm keeps columns
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) rows[r * 4 + c] = info.eye_to_capture[c][r];
-    exr::add_m44d(to, "glcast.eyeToCapture", rows);
+    add_matrix(to, "glcast.eyeToCapture", info.eye_to_capture);
+    if (info.from_capture) add_matrix(to, "glcast.fromCapture", *info.from_capture);
     exr::add_string(to, "glcast.program", info.program);
     exr::add_int(to, "glcast.frame", static_cast<int>(std::min<long>(info.frame, INT32_MAX)));
     exr::add_string(to, "glcast.renderer", info.renderer);

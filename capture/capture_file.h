@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "capture/view.h"
@@ -17,6 +18,8 @@ struct CaptureInfo {
     int n = 0;
     Box box;
     glm::dmat4 eye_to_capture{1.0};
+    /// Reference views (capture/reference_views.h): the frame of their capture to this one. Else none.
+    std::optional<glm::dmat4> from_capture;
     std::string program;  ///< file name of the host program
     long frame = 0;       ///< number of the frame, from 1
     std::string renderer; ///< GL_RENDERER

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "capture/capture_file.h"
+#include "capture/reference_views.h"
 #include "shim/preload/axes.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/output_name.h"
@@ -105,7 +106,6 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
     if (!writer.finish(report.layers, report.layer_method)) return failure(writer.error());
-    tell("captured", std::to_string(info.frame) + " " + path);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     char text[200];
     std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, layers %d %d %d %s, %d draws, %.2f s)", info.n,
@@ -232,7 +232,12 @@ class Cast {
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
         if (!engine.box) return nothing_solid();
         tell("casting", std::to_string(number));
-        return write(candidate, include.any() ? thickened(candidate, engine) : as_drawn, engine);
+        return write(candidate, engine);
+    }
+
+    /// What is cast, through a capture frame.
+    DrawFunction solid(const Candidate& candidate, const EngineOptions& engine) const {
+        return options.include.any() ? thickened(candidate, engine) : drawing(candidate, {});
     }
 
     /// Lines and points a sample and a half wide: what is thinner than a sample falls between the rays.
@@ -248,7 +253,7 @@ class Cast {
         };
     }
 
-    CastResult write(const Candidate& candidate, const DrawFunction& draw, const EngineOptions& engine) const {
+    CastResult write(const Candidate& candidate, const EngineOptions& engine) const {
         std::map<std::string, long> not_understood;
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
@@ -258,7 +263,33 @@ class Cast {
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
         CaptureInfo info = make_info(number, options, engine, gl);
         info.not_understood = std::move(not_understood);
-        return write_capture(gl, draw, info, engine, output_name(options.out, getpid(), number));
+        const std::string path = output_name(options.out, getpid(), number);
+        CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path);
+        if (result.outcome != CastOutcome::captured) return result;
+        if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
+        if (result.outcome == CastOutcome::captured) tell("captured", std::to_string(number) + " " + path);
+        return result;
+    }
+
+    /// The same frame from sides that the capture has not, beside it; `captured` when all are written.
+    CastResult write_references(const Candidate& candidate, CaptureInfo info, const EngineOptions& captured_with,
+                                const std::string& path, CastResult captured) const {
+        int count = 0;
+        for (const glm::dmat4& rotation : reference_rotations(options.reference_views)) {
+            EngineOptions engine = captured_with;
+            engine.most_layers = 1;
+            engine.eye_to_capture = rotation * captured_with.eye_to_capture;
+            engine.search = turned_box(*captured_with.box, rotation);
+            const DrawFunction draw = solid(candidate, engine);
+            engine.box = find_box(gl, draw, engine);
+            if (!engine.box) return failure("a reference view shows nothing");
+            info.box = *engine.box;
+            info.eye_to_capture = engine.eye_to_capture;
+            info.from_capture = rotation;
+            const CastResult result = write_capture(gl, draw, info, engine, reference_name(path, ++count));
+            if (result.outcome != CastOutcome::captured) return result;
+        }
+        return captured;
     }
 };
 

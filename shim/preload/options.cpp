@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "capture/reference_views.h"
 #include "shim/preload/key_names.h"
 #include "shim/preload/output_name.h"
 #include "shim/preload/similarity.h"
@@ -157,6 +158,11 @@ constexpr Variable variables[] = {
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
+    {"GLCAST_REFERENCE_VIEWS", "a whole number from 1 to 36, and no GLCAST_BOX with it",
+     [](const std::string& t, Options& o) {
+         return parse_number(t, o.reference_views) && o.reference_views >= 1 &&
+                o.reference_views <= max_reference_views && !o.box;
+     }},
     {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
     {"GLCAST_MEMORY", "MiB, a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},

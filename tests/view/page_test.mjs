@@ -6,30 +6,12 @@ import { writeFile } from 'node:fs/promises';
 import { pathToFileURL } from 'node:url';
 import { Chromium, softwareGl } from './chromium.mjs';
 import { decode } from './png.mjs';
+import { background, count, isModel, near, stageOf } from './stage.mjs';
 
 const [program, page] = process.argv.slice(2);
 const url = pathToFileURL(page).href;
-const red = [230, 26, 26], blue = [26, 26, 230], background = [238, 241, 243];
+const red = [230, 26, 26], blue = [26, 26, 230];
 
-function near(pixel, wanted, within, what) {
-  const off = Math.max(...wanted.map((value, k) => Math.abs(value - pixel[k])));
-  assert.ok(off <= within, `${what}: ${pixel} instead of ${wanted}`);
-}
-
-async function stageOf(tab) {
-  const { x, y, width, height } = await tab.rectangle('#canvas');
-  return { x, y, width, height, cx: Math.round(x + width / 2), cy: Math.round(y + height / 2) };
-}
-
-/** Pixels of the canvas that meet a condition, of every third in both directions. */
-function count(picture, stage, condition) {
-  let found = 0;
-  for (let y = 60; y < stage.height - 60; y += 3)
-    for (let x = 0; x < stage.width; x += 3) if (condition(picture.at(Math.round(stage.x) + x, Math.round(stage.y) + y))) ++found;
-  return found;
-}
-
-const isModel = (p) => Math.abs(p[0] - background[0]) + Math.abs(p[1] - background[1]) + Math.abs(p[2] - background[2]) > 30;
 const isDark = (p) => p[0] < 60 && p[1] < 60 && p[2] < 70;
 
 const steps = {

@@ -1,6 +1,7 @@
 // glcast render: a picture of a mesh, without X.
 #include <memory>
 
+#include "tools/cli/captured_views.h"
 #include "tools/cli/command.h"
 #include "tools/io/mesh_io.h"
 #include "tools/render/render.h"
@@ -9,20 +10,28 @@ namespace glcast::cli {
 namespace {
 
 struct Options {
-    std::string mesh, output;
+    std::string mesh, output, capture;
     int size = 256;
     bool json = false;
 };
+
+std::string caption(const CaptureInfo& info) {
+    return "captured: frame " + std::to_string(info.frame) + " of " + info.program + ", " + std::to_string(info.n) +
+           " samples along each axis";
+}
 
 int render(const Options& options) {
     if (std::filesystem::path(options.output).extension() != ".png")
         throw std::runtime_error("cannot write '" + options.output + "': name it .png");
     require_writable(options.output);
+    CapturedSix captured;
+    if (!options.capture.empty()) captured = read_six_views(options.capture);
     const std::vector<Level> levels = read_levels(options.mesh);
+    const CapturedViews beside{caption(captured.info), captured.views, captured.info.box};
     Picture sheet;
     {
         const Progress progress("drawing");
-        sheet = contact_sheet(levels, options.size);
+        sheet = contact_sheet(levels, options.size, options.capture.empty() ? nullptr : &beside);
     }
     write_png(options.output, sheet);
     if (options.json)
@@ -42,6 +51,7 @@ Run declare_render(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option("mesh", options->mesh, "mesh: .glb, .obj, .ply, .off or .stl")->required();
     app.add_option("-o,--output", options->output, "picture to write (.png)")->required();
+    app.add_option("--capture", options->capture, "capture (.exr) whose six views make a first row, in the same light and place");
     app.add_option("--size", options->size, "pixels per view")
         ->check(CLI::Range(16, 1024))
         ->capture_default_str();

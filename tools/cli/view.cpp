@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "capture/output_file.h"
+#include "tools/cli/captured_views.h"
 #include "tools/cli/command.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/capture_reader.h"
@@ -19,12 +20,6 @@ struct Options {
     std::string output, capture;
     PageOptions page;
     bool json = false;
-};
-
-/// The six views of a capture, none of the layers behind them.
-struct Captured {
-    CaptureInfo info;
-    std::vector<ViewImage> views;
 };
 
 void check_output(const Options& options) {
@@ -48,15 +43,6 @@ bool is_capture(const std::string& file) {
 std::string capture_of(const Options& options) {
     if (!options.capture.empty()) return options.capture;
     return options.files.size() == 1 && is_capture(options.files[0]) ? options.files[0] : "";
-}
-
-Captured read_views(const std::string& file) {
-    const Progress progress("reading " + file);
-    Captured captured;
-    captured.info = read_capture(file, [&](ViewImage&& image) {
-        if (image.view.layer == 0) captured.views.push_back(std::move(image));
-    });
-    return captured;
 }
 
 std::vector<Level> levels_of(const std::string& file) {
@@ -96,6 +82,7 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
     for (const Level& level : levels) {
         PageLevel& one = described.emplace_back();
         one.mesh = &level.mesh;
+        one.texture = &level.texture;
         one.name = level.name.empty() ? "level " + std::to_string(described.size() - 1) : level.name;
         one.glb_bytes = glb_size(level);
         one.error = level.error;
@@ -121,7 +108,7 @@ void write(const std::string& path, const std::string& html) {
 }
 
 void print_page(const Options& options, const PageInput& input, const Page& page) {
-    Json json = {{"file", options.output}, {"bytes", page.html.size()}, {"views", input.views.size()}};
+    Json json = {{"file", options.output}, {"bytes", page.html.size()}, {"pictureBytes", page.picture_bytes}, {"views", input.views.size()}};
     for (std::size_t k = 0; k < input.levels.size(); ++k) {
         const PageLevel& level = input.levels[k];
         json["levels"].push_back({{"name", level.name},
@@ -130,6 +117,7 @@ void print_page(const Options& options, const PageInput& input, const Page& page
                                   {"glbBytes", level.glb_bytes},
                                   {"pageBytes", page.level_bytes[k]},
                                   {"inPage", page.level_bytes[k] > 0},
+                                  {"textured", level.texture && !level.texture->empty()},
                                   {"meanError", level.error.mean},
                                   {"maxError", level.error.max}});
     }
@@ -152,8 +140,8 @@ void say_page(const Options& options, const PageInput& input, const Page& page) 
 int view(const Options& options) {
     check_output(options);
     const std::string capture = capture_of(options);
-    Captured captured;
-    if (!capture.empty()) captured = read_views(capture);
+    CapturedSix captured;
+    if (!capture.empty()) captured = read_six_views(capture);
     const std::vector<Level> levels = gather_levels(options.files);
     PageInput input;
     input.title = title_of(options);

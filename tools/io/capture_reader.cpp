@@ -65,18 +65,30 @@ void read_layers(const Imf::Header& header, CaptureInfo& info) {
     if (looked != (info.layers != Layers::outer)) refuse("the header is damaged: glcast.layers");
 }
 
+glm::dmat4 matrix(const Imath::M44d& rows) {
+    glm::dmat4 m;
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) m[c][r] = rows[r][c];
+    return m;
+}
+
+bool is_finite(const glm::dmat4& m) {
+    for (int k = 0; k < 16; ++k)
+        if (!std::isfinite(m[k / 4][k % 4])) return false;
+    return true;
+}
+
 CaptureInfo read_info(const Imf::Header& header) {
     CaptureInfo info;
     info.n = value<Imf::IntAttribute>(header, "glcast.n");
     const Imath::V3d& lo = value<Imf::V3dAttribute>(header, "glcast.boxLo");
     info.box = {{lo.x, lo.y, lo.z}, value<Imf::DoubleAttribute>(header, "glcast.boxSize")};
-    const Imath::M44d& rows = value<Imf::M44dAttribute>(header, "glcast.eyeToCapture");
-    bool finite = true;
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) {
-            info.eye_to_capture[c][r] = rows[r][c];
-            finite &= std::isfinite(rows[r][c]);
-        }
+    info.eye_to_capture = matrix(value<Imf::M44dAttribute>(header, "glcast.eyeToCapture"));
+    bool finite = is_finite(info.eye_to_capture);
+    if (header.findTypedAttribute<Imf::M44dAttribute>("glcast.fromCapture")) {
+        info.from_capture = matrix(value<Imf::M44dAttribute>(header, "glcast.fromCapture"));
+        finite &= is_finite(*info.from_capture);
+    }
     for (int k = 0; k < 3; ++k) finite &= std::isfinite(info.box.lo[k]);
     if (!finite || !std::isfinite(info.box.size) || !(info.box.size > 0))
         refuse("the header is damaged: box or frame");
@@ -162,7 +174,7 @@ ViewImage read_part(Imf::MultiPartInputFile& file, int part, const CaptureInfo& 
     const Imf::Header& header = file.header(part);
     const CaptureInfo same = read_info(header);
     if (same.n != info.n || same.box.lo != info.box.lo || same.box.size != info.box.size ||
-        same.eye_to_capture != info.eye_to_capture || same.layers != info.layers ||
+        same.eye_to_capture != info.eye_to_capture || same.from_capture != info.from_capture || same.layers != info.layers ||
         same.layer_method != info.layer_method || same.layer_count != info.layer_count)
         refuse("its parts differ in box, frame or layers");
     ViewImage image;

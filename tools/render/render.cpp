@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "tools/render/label.h"
+#include "tools/render/lighting.h"
 #include "tools/render/osmesa.h"
 
 namespace glcast {
@@ -33,11 +34,11 @@ constexpr std::array<SheetView, 8> sheet_views = {{
 
 constexpr int supersampling = 3;
 constexpr std::uint8_t paper = 255, border = 205, ink = 60;
-constexpr float tile_grey = 0.95F;
 constexpr glm::vec3 plain_colour{0.7F, 0.7F, 0.7F}; // where the mesh has none
-constexpr GLfloat ambient[] = {0.35F, 0.35F, 0.35F, 1}, diffuse[] = {0.65F, 0.65F, 0.65F, 1};
-constexpr GLfloat light_direction[] = {0.15F, 0.25F, 1,
-                                       0}; // in eye space: a little over the viewer's shoulder
+constexpr double room = 1.04;                       // a thin margin around the bounding sphere
+constexpr GLfloat ambient[] = {ambient_light, ambient_light, ambient_light, 1},
+                  diffuse[] = {diffuse_light, diffuse_light, diffuse_light, 1},
+                  light_direction[] = {towards_light.x, towards_light.y, towards_light.z, 0};
 constexpr GLfloat dark[] = {0, 0, 0, 1};
 
 struct Sphere {
@@ -131,7 +132,6 @@ glm::dmat4 looking(const glm::dvec3& direction) {
 }
 
 void draw(const GlTable& gl, const Drawable& mesh, const glm::dvec3& direction, int pixels) {
-    constexpr double room = 1.04; // a thin margin around the bounding sphere
     gl.Viewport(0, 0, pixels, pixels);
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl.MatrixMode(GL_PROJECTION);
@@ -178,15 +178,6 @@ int check_size(int size) {
 
 int factor_for(int size) { return std::clamp(Osmesa::largest() / size, 1, supersampling); }
 
-std::string caption(const Level& level) {
-    const std::size_t triangles = level.mesh.triangles.size();
-    std::string text = level.name + (level.name.empty() ? "" : ": ") + std::to_string(triangles) +
-                       (triangles == 1 ? " triangle" : " triangles");
-    char errors[80];
-    std::snprintf(errors, sizeof errors, ", mean error %.3g, max %.3g", level.error.mean, level.error.max);
-    return level.error.max > 0 ? text + errors : text;
-}
-
 struct Layout {
     int size, scale, strip; ///< a tile, the text's scale, the height of a line of text with its margins
     int width, height;
@@ -199,18 +190,58 @@ struct Layout {
     int row(std::size_t i) const { return strip + int(i) * (strip + size + 2) + strip + 1; }
 };
 
-void draw_row(Picture& sheet, const Layout& layout, std::size_t row, const Level& level,
-              const Sphere& sphere) {
+void draw_caption(Picture& sheet, const Layout& layout, std::size_t row, const std::string& text) {
+    draw_label(sheet, 4 * layout.scale, layout.row(row) - layout.strip + 2 * layout.scale, text, layout.scale,
+               ink);
+}
+
+/// A row of tiles, pixel by pixel. `see`: what is seen in a view, for each column that has one.
+template <class See>
+void draw_tiles(Picture& sheet, const Layout& layout, std::size_t row, const Sphere& sphere,
+                std::size_t columns, int factor, See&& see) {
+    for (std::size_t i = 0; i < columns; ++i) {
+        const OrthoView view =
+            square_view(sheet_views[i].direction, sphere.centre, room * sphere.radius, layout.size * factor);
+        shrink_into(sheet, layout.column(i), layout.row(row), layout.size, lit_rgba(see(i, view), view),
+                    factor);
+    }
+}
+
+void draw_by_osmesa(Picture& sheet, const Layout& layout, std::size_t row, const Mesh& of,
+                    const Sphere& sphere) {
     const int factor = factor_for(layout.size), pixels = layout.size * factor;
-    const Drawable mesh = prepare(level.mesh, sphere);
+    const Drawable mesh = prepare(of, sphere);
     Osmesa osmesa(pixels);
     set_up_state(osmesa.gl(), mesh);
-    draw_label(sheet, 4 * layout.scale, layout.row(row) - layout.strip + 2 * layout.scale, caption(level),
-               layout.scale, ink);
     for (std::size_t i = 0; i < sheet_views.size(); ++i) {
         draw(osmesa.gl(), mesh, sheet_views[i].direction, pixels);
         shrink_into(sheet, layout.column(i), layout.row(row), layout.size, osmesa.finish(), factor);
     }
+}
+
+/// Textures need light per pixel.
+void draw_row(Picture& sheet, const Layout& layout, std::size_t row, const Level& level,
+              const Sphere& sphere) {
+    draw_caption(sheet, layout, row, level_caption(level));
+    if (level.texture.empty()) return draw_by_osmesa(sheet, layout, row, level.mesh, sphere);
+    draw_tiles(
+        sheet, layout, row, sphere, sheet_views.size(), supersampling,
+        [&](std::size_t, const OrthoView& view) { return rasterise(level.mesh, level.texture, view); });
+}
+
+const ViewImage& outer_view(std::span<const ViewImage> images, std::size_t column) {
+    const View wanted{Axis(column / 2), column % 2 ? Side::plus : Side::minus, 0};
+    for (const ViewImage& image : images)
+        if (image.view == wanted) return image;
+    throw std::runtime_error("cannot draw: the capture lacks a view");
+}
+
+void draw_captured(Picture& sheet, const Layout& layout, const CapturedViews& captured,
+                   const Sphere& sphere) {
+    draw_caption(sheet, layout, 0, captured.caption);
+    draw_tiles(sheet, layout, 0, sphere, 6, supersampling, [&](std::size_t column, const OrthoView& view) {
+        return resampled(outer_view(captured.images, column), captured.box, view);
+    });
 }
 
 void draw_borders(Picture& sheet, const Layout& layout, std::size_t rows) {
@@ -227,16 +258,18 @@ void draw_borders(Picture& sheet, const Layout& layout, std::size_t rows) {
 
 } // namespace
 
-Picture contact_sheet(std::span<const Level> levels, int size) {
+Picture contact_sheet(std::span<const Level> levels, int size, const CapturedViews* captured) {
     if (levels.empty()) throw std::runtime_error("cannot draw: there is no mesh");
-    const Layout layout(check_size(size), int(levels.size()));
+    const std::size_t first = captured ? 1 : 0, rows = first + levels.size();
+    const Layout layout(check_size(size), int(rows));
     const Sphere sphere = bounds(levels.front().mesh);
     Picture sheet = blank(layout.width, layout.height, paper);
     for (std::size_t i = 0; i < sheet_views.size(); ++i)
         draw_label(sheet, layout.column(i) + (size - label_width(sheet_views[i].label, layout.scale)) / 2,
                    2 * layout.scale, sheet_views[i].label, layout.scale, ink);
-    for (std::size_t row = 0; row < levels.size(); ++row) draw_row(sheet, layout, row, levels[row], sphere);
-    draw_borders(sheet, layout, levels.size());
+    if (captured) draw_captured(sheet, layout, *captured, sphere);
+    for (std::size_t k = 0; k < levels.size(); ++k) draw_row(sheet, layout, first + k, levels[k], sphere);
+    draw_borders(sheet, layout, rows);
     return sheet;
 }
 
@@ -249,6 +282,16 @@ Picture picture(const Mesh& mesh, const glm::dvec3& direction, int size) {
     draw(osmesa.gl(), drawable, direction, size * factor);
     Picture out = blank(size, size, paper);
     shrink_into(out, 0, 0, size, osmesa.finish(), factor);
+    return out;
+}
+
+Picture picture(const Mesh& mesh, const Texture& texture, const glm::dvec3& direction, int size) {
+    if (!(glm::length(direction) > 0)) throw std::runtime_error("cannot draw: no direction to look in");
+    const Sphere sphere = bounds(mesh);
+    const OrthoView view =
+        square_view(direction, sphere.centre, room * sphere.radius, check_size(size) * supersampling);
+    Picture out = blank(size, size, paper);
+    shrink_into(out, 0, 0, size, lit_rgba(rasterise(mesh, texture, view), view), supersampling);
     return out;
 }
 

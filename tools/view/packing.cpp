@@ -34,10 +34,10 @@ class Differences {
 
 std::int64_t rounded(double share) { return std::llround(std::clamp(share, 0.0, 1.0) * steps); }
 
-void add_bytes(Bytes& bytes, std::span<const glm::vec3> values, float one) {
-    for (int k = 0; k < 3; ++k) {
+template <class Vector> void add_bytes(Bytes& bytes, const std::vector<Vector>& values, float one) {
+    for (int k = 0; k < Vector::length(); ++k) {
         Differences to(bytes);
-        for (const glm::vec3& value : values) to.byte(int(std::lround(value[k] * one)));
+        for (const Vector& value : values) to.byte(int(std::lround(value[k] * one)));
     }
 }
 
@@ -68,9 +68,10 @@ std::string base64(const Bytes& bytes) {
     return text;
 }
 
-Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double largest_distance,
-                   const Cube& cube) {
-    Bytes bytes;
+namespace {
+
+void add_vertices(Bytes& bytes, const Mesh& mesh, std::span<const double> distance, double largest_distance,
+                  const Cube& cube) {
     bytes.reserve(mesh.positions.size() * 12 + mesh.triangles.size() * 6);
     for (int k = 0; k < 3; ++k) {
         Differences to(bytes);
@@ -80,9 +81,32 @@ Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double la
     for (const double d : distance) to.number(largest_distance > 0 ? rounded(d / largest_distance) : 0);
     add_bytes(bytes, mesh.normals, 127);
     add_bytes(bytes, mesh.colours, 255);
+}
+
+void add_triangles(Bytes& bytes, const Mesh& mesh) {
     Differences corners(bytes);
     for (const Triangle& t : mesh.triangles)
         for (const std::uint32_t v : t) corners.number(v);
+}
+
+} // namespace
+
+Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double largest_distance, const Cube& cube) {
+    Bytes bytes;
+    add_vertices(bytes, mesh, distance, largest_distance, cube);
+    add_triangles(bytes, mesh);
+    return deflated(bytes);
+}
+
+Bytes packed_level(const CutMesh& textured, double largest_distance, const Cube& cube) {
+    Bytes bytes;
+    add_vertices(bytes, textured.mesh, textured.distance, largest_distance, cube);
+    for (int k = 0; k < 2; ++k) {
+        Differences to(bytes);
+        for (const glm::vec2& at : textured.coordinates) to.number(rounded(at[k]));
+    }
+    add_bytes(bytes, textured.tangents, 127);
+    add_triangles(bytes, textured.mesh);
     return deflated(bytes);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/mesh/mesh.h"
+#include "tools/view/seams.h"
 
 namespace glcast::view {
 
@@ -29,9 +30,12 @@ struct Cube {
 ///     distance to level 0 (v)                       65535 = `largest_distance`
 ///     normals, where there are any: x, y, z (b)     signed, 127 = 1
 ///     colours, where there are any: r, g, b (b)     display values, 255 = 1
+///     coordinates, where textured: u, v (v)         65535 = 1, from the top left
+///     tangents, where textured: x, y, z, w (b)      signed, 127 = 1
 ///     corners of all triangles (v)
 ///
 /// Read by page/levels.js.
 Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double largest_distance, const Cube& cube);
+Bytes packed_level(const CutMesh& textured, double largest_distance, const Cube& cube);
 
 } // namespace glcast::view

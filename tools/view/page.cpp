@@ -28,15 +28,25 @@ Cube cube_round(const PageInput& input) {
 Json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 Json numbers(const glm::ivec3& v) { return {v.x, v.y, v.z}; }
 
+bool is_textured(const PageLevel& level) {
+    return level.texture && !level.texture->empty() && !level.texture->colour.rgb.empty();
+}
+
 Json describe(const PageLevel& level, bool included) {
     double mean = 0, largest = 0;
     for (const double d : level.vertex_distance) mean += d, largest = std::max(largest, d);
+    const LevelError& error = level.error;
     return {{"name", level.name},
             {"triangles", level.mesh->triangles.size()},
             {"vertices", level.mesh->positions.size()},
             {"bytes", level.glb_bytes},
-            {"meanError", level.error.mean},
-            {"maxError", level.error.max},
+            {"meanError", error.mean},
+            {"p999Error", error.p999},
+            {"maxError", error.max},
+            {"normalError", error.normal_mean_degrees},
+            {"colourError", error.colour_mean},
+            {"colourP999", error.colour_p999},
+            {"unsupported", error.unsupported_area_share},
             {"vertexMean", mean / double(std::max<std::size_t>(level.vertex_distance.size(), 1))},
             {"vertexMax", largest},
             {"normals", !level.mesh->normals.empty()},
@@ -67,6 +77,49 @@ Json describe(const CaptureInfo& info) {
             {"size", info.box.size}};
 }
 
+std::string element(const std::string& id, const char* type, const std::string& content) {
+    return "<script type=\"" + std::string(type) + "\" id=\"" + id + "\">" + content + "</script>\n";
+}
+
+/// Pictures of textures, each in the page once, however many levels share it.
+class Atlases {
+  public:
+    explicit Atlases(std::string& data) : data(data) {}
+
+    /// Its number in the page; -1: none.
+    int add(const Picture& picture) {
+        if (picture.rgb.empty()) return -1;
+        const auto same = std::find_if(known.begin(), known.end(), [&](const Picture* other) {
+            return other->width == picture.width && other->rgb == picture.rgb;
+        });
+        if (same != known.end()) return int(same - known.begin());
+        known.push_back(&picture);
+        const std::string text = base64(picture_png(picture));
+        bytes += text.size();
+        data += element("picture-" + std::to_string(known.size() - 1), "text/plain", text);
+        return int(known.size()) - 1;
+    }
+    std::size_t bytes = 0;
+
+  private:
+    std::string& data;
+    std::vector<const Picture*> known;
+};
+
+/// The level as text, and what the page must know to read it.
+std::string pack(const PageLevel& level, const Cube& cube, Json& described, Atlases& atlases) {
+    const double largest = described["vertexMax"].get<double>();
+    if (!is_textured(level)) return base64(packed_level(*level.mesh, level.vertex_distance, largest, cube));
+    const CutMesh cut = cut_at_seams(*level.mesh, level.vertex_distance, *level.texture);
+    described["packedVertices"] = cut.mesh.positions.size();
+    const bool bent = !level.texture->tangents.empty() && !level.mesh->normals.empty();
+    described["texture"] = {{"width", level.texture->colour.width},
+                            {"height", level.texture->colour.height},
+                            {"colour", atlases.add(level.texture->colour)},
+                            {"normal", bent ? atlases.add(level.texture->normal) : -1}};
+    return base64(packed_level(cut, largest, cube));
+}
+
 /// As the content of a script element: nothing in it may end the element.
 std::string as_script(const Json& json) {
     const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -78,10 +131,6 @@ std::string as_script(const Json& json) {
         else
             safe.push_back(c);
     return safe;
-}
-
-std::string element(const std::string& id, const char* type, const std::string& content) {
-    return "<script type=\"" + std::string(type) + "\" id=\"" + id + "\">" + content + "</script>\n";
 }
 
 void require_some(const PageInput& input, const PageOptions& options) {
@@ -118,17 +167,17 @@ Page make_page(const PageInput& input, const PageOptions& options) {
 
     Page page;
     std::string data;
+    Atlases atlases(data);
     for (const PageLevel& level : input.levels) {
         const bool included = level.mesh->triangles.size() <= options.most_triangles;
-        scene["levels"].push_back(describe(level, included));
-        std::string text;
-        if (included)
-            text = base64(packed_level(*level.mesh, level.vertex_distance,
-                                       scene["levels"].back()["vertexMax"].get<double>(), cube));
+        Json described = describe(level, included);
+        const std::string text = included ? pack(level, cube, described, atlases) : "";
         page.level_bytes.push_back(text.size());
         if (included)
             data += element("level-" + std::to_string(page.level_bytes.size() - 1), "text/plain", text);
+        scene["levels"].push_back(std::move(described));
     }
+    page.picture_bytes = atlases.bytes;
     page.html.append(whole.substr(0, mark));
     page.html += element("scene", "application/json", as_script(scene));
     page.html += data;

@@ -13,7 +13,8 @@ namespace glcast {
 
 /// A level and what is known of it. Lengths in model units.
 struct PageLevel {
-    const Mesh* mesh = nullptr; ///< outlives make_page()
+    const Mesh* mesh = nullptr;       ///< outlives make_page()
+    const Texture* texture = nullptr; ///< likewise; null or empty: colours of the vertices are all there is
     std::string name;
     std::uint64_t glb_bytes = 0;           ///< of the level as a .glb of its own
     LevelError error;
@@ -35,7 +36,8 @@ struct PageOptions {
 
 struct Page {
     std::string html;
-    std::vector<std::size_t> level_bytes; ///< of each level in the page; 0 where it was left out
+    std::vector<std::size_t> level_bytes; ///< of each level in the page, less its pictures; 0 where it was left out
+    std::size_t picture_bytes = 0;        ///< of all textures in the page
 };
 
 /// Empty when this program can make pages, else one line: what was missing when it was built, and what to do.

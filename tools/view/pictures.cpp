@@ -20,18 +20,19 @@ void add_chunk(Bytes& png, const char* name, const Bytes& data) {
     add_word(png, std::uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()))));
 }
 
-/// PNG (ISO 15948), RGBA of 8 bits, each row as differences to the one above.
-Bytes png(int size, const Bytes& rgba) {
+/// PNG (ISO 15948), RGB or RGBA of 8 bits, each row as differences to the one above.
+Bytes png(int columns, int row_count, int channels, const char* pixels) {
     Bytes head;
-    add_word(head, std::uint32_t(size));
-    add_word(head, std::uint32_t(size));
-    head += Bytes("\x08\x06\0\0\0", 5);
-    const std::size_t width = std::size_t(size) * 4;
+    add_word(head, std::uint32_t(columns));
+    add_word(head, std::uint32_t(row_count));
+    head += Bytes(channels == 4 ? "\x08\x06\0\0\0" : "\x08\x02\0\0\0", 5);
+    const std::size_t width = std::size_t(columns) * std::size_t(channels);
     Bytes rows;
-    for (std::size_t y = 0; y < std::size_t(size); ++y) {
+    rows.reserve((width + 1) * std::size_t(row_count));
+    for (std::size_t y = 0; y < std::size_t(row_count); ++y) {
         rows.push_back(2);
         for (std::size_t x = 0; x < width; ++x)
-            rows.push_back(char(rgba[y * width + x] - (y ? rgba[(y - 1) * width + x] : 0)));
+            rows.push_back(char(pixels[y * width + x] - (y ? pixels[(y - 1) * width + x] : 0)));
     }
     Bytes out("\x89PNG\r\n\x1a\n", 8);
     add_chunk(out, "IHDR", head);
@@ -92,7 +93,11 @@ Bytes view_png(const ViewImage& image, What what, int most_pixels) {
             for (int k = 0; k < 4; ++k)
                 rgba.push_back(char(std::lround(std::clamp(mean[k], 0.0f, 1.0f) * 255)));
         }
-    return png(size, rgba);
+    return png(size, size, 4, rgba.data());
+}
+
+Bytes picture_png(const Picture& picture) {
+    return png(picture.width, picture.height, 3, reinterpret_cast<const char*>(picture.rgb.data()));
 }
 
 } // namespace glcast::view

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include "capture/view_image.h"
+#include "tools/mesh/picture.h"
 #include "tools/view/packing.h"
 
 namespace glcast::view {
@@ -18,5 +19,8 @@ enum class What { colour, normal };
 /// .png with alpha 0 where nothing was drawn, at most `most_pixels` wide; larger images are averaged. Normals
 /// are shown as (n + 1) / 2 in the capture frame.
 Bytes view_png(const ViewImage& image, What what, int most_pixels);
+
+/// .png of a picture as it is.
+Bytes picture_png(const Picture& picture);
 
 } // namespace glcast::view

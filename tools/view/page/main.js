@@ -1,6 +1,6 @@
 // The page of `glcast view`: reads its own data, shows it, and follows mouse, touch and keys.
-import { readLevel, readScene } from './levels.js';
-import { fillTable, markLevel, press, showLegend } from './panel.js';
+import { readLevel, readPicture, readScene } from './levels.js';
+import { fillTable, markLevel, press, showLegend, showTexture } from './panel.js';
 import { Stage } from './scene.js';
 import { Pose, key, listen } from './turning.js';
 import { dressViews, markView, showViews } from './views.js';
@@ -48,6 +48,7 @@ class Page {
     listen(byId('canvas'), this.pose, () => this.turned());
     byId('level').addEventListener('input', (event) => this.showLevel(this.included[event.target.valueAsNumber]));
     for (const mode of ['colour', 'normal', 'error']) byId(`show-${mode}`).addEventListener('click', () => this.setMode(mode));
+    byId('texture').addEventListener('click', () => this.toggleTexture());
     byId('wireframe').addEventListener('click', () => this.toggleWireframe());
     byId('own-scale').addEventListener('change', () => this.updateErrors());
     document.addEventListener('keydown', (event) => this.keyed(event));
@@ -61,13 +62,19 @@ class Page {
     markLevel(this.scene, index);
     if (!this.stage) return;
     const level = this.scene.levels[index];
-    if (!this.loaded.has(index))
-      this.loaded.set(index, readLevel(level, index).then((arrays) => this.stage.meshes(level, arrays)));
+    if (!this.loaded.has(index)) this.loaded.set(index, this.load(level, index));
     const meshes = await this.loaded.get(index);
     if (this.current !== index) return;
     this.stage.show(meshes);
     byId('canvas').dataset.level = String(index);
+    showTexture(level, this.stage.textured);
     this.updateErrors();
+  }
+
+  async load(level, index) {
+    const { colour = -1, normal = -1 } = level.texture ?? {};
+    const [arrays, ...images] = await Promise.all([readLevel(level, index), readPicture(colour), readPicture(normal)]);
+    return this.stage.meshes(level, arrays, images);
   }
 
   setMode(mode) {
@@ -84,6 +91,14 @@ class Page {
     const largest = byId('own-scale').checked ? levels[this.current].vertexMax : all;
     this.stage.setErrorScale(largest);
     showLegend(this.scene, this.current, this.mode, largest);
+  }
+
+  toggleTexture() {
+    const level = this.scene.levels[this.current];
+    if (!level.texture) return;
+    this.stage.textured = !this.stage.textured;
+    showTexture(level, this.stage.textured);
+    this.stage.draw();
   }
 
   toggleWireframe() {
@@ -114,6 +129,7 @@ class Page {
     if (event.target === byId('level') && event.key.startsWith('Arrow')) return;
     const actions = {
       ',': () => this.stepLevel(-1), '.': () => this.stepLevel(1), w: () => this.toggleWireframe(),
+      t: () => this.toggleTexture(),
       c: () => this.setMode('colour'), n: () => this.setMode('normal'), e: () => this.setMode('error'),
     };
     this.views.forEach((view, index) => { actions[index + 1] = () => this.showView(view); });

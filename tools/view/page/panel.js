@@ -36,16 +36,31 @@ function addHead(table, names) {
   for (const name of names) cell(row, 'th', name);
 }
 
+const short = (value) => (value === 0 ? '0' : value < 1e-4 ? value.toExponential(0) : value.toPrecision(2));
+
+/** What is known of the errors of any level; what nobody measured has no column. */
+function columnsOf(scene) {
+  const length = lengthIn(scene);
+  const known = (name) => scene.levels.some((level) => level[name] > 0);
+  return [
+    { head: 'Mean error', value: (level) => length(level.meanError) },
+    known('p999Error') && { head: '99.9 %', value: (level) => length(level.p999Error) },
+    { head: 'Max', value: (level) => length(level.maxError) },
+    known('normalError') && { head: 'Normals', value: (level) => `${short(level.normalError)}°` },
+    known('colourP999') && { head: 'Colours', value: (level) => short(level.colourError) },
+  ].filter(Boolean);
+}
+
 /** @param {(index: number) => void} choose */
 export function fillTable(scene, choose) {
   const table = byId('levels');
-  const length = lengthIn(scene);
-  addHead(table, ['Level', 'Triangles', 'Size', 'Mean error', 'Max']);
+  const columns = columnsOf(scene);
+  addHead(table, ['Level', 'Triangles', 'Size', ...columns.map(({ head }) => head)]);
   const body = table.createTBody();
   scene.levels.forEach((level, index) => {
     const row = body.insertRow();
     row.className = level.included ? '' : 'absent';
-    const errors = index === 0 ? ['–', '–'] : [length(level.meanError), length(level.maxError)];
+    const errors = columns.map(({ value }) => (index === 0 ? '–' : value(level)));
     row.title = level.included ? level.name : `${level.name}: not in this page`;
     for (const text of [String(index), counted.format(level.triangles), bytes(level.bytes), ...errors]) cell(row, 'td', text);
     if (level.included) row.addEventListener('click', () => choose(index));
@@ -60,6 +75,10 @@ function noteOn(scene) {
     const sample = scene.sample > 0 ? ` (a sample is ${Number(scene.sample.toPrecision(4))} units)` : '';
     parts.push(`Errors: distance to level 0, both ways, in ${unitName(scene)}${sample}.`);
   }
+  if (scene.levels.some((level) => level.normalError > 0)) parts.push('Normals: mean angle to those of level 0.');
+  if (scene.levels.some((level) => level.colourP999 > 0)) parts.push('Colours: mean of the largest difference of a channel, of 1.');
+  const unseen = scene.levels[0].unsupported;
+  if (unseen > 0) parts.push(`${short(100 * unseen)} % of the surface was seen by no ray, and is filled in.`);
   if (absent > 0)
     parts.push(`${absent === 1 ? 'The grey level is' : 'Grey levels are'} left out of this page: more than ` +
       `${counted.format(scene.most)} triangles (glcast view --max-triangles).`);
@@ -84,6 +103,14 @@ export function showLegend(scene, index, mode, largest) {
   byId('ramp-high').textContent = largest > 0 ? `${lengthIn(scene)(largest)} ${unitName(scene)}` : '';
   byId('legend-note').textContent = index === 0 ? 'Level 0 is what the others are measured against.'
     : 'Distance of each vertex to level 0.';
+}
+
+/** The button is there for levels that have a texture. */
+export function showTexture(level, on) {
+  const { texture } = level;
+  byId('texture').disabled = !texture;
+  byId('texture').title = texture ? `${texture.width} × ${texture.height} pixels` : 'this level has none';
+  press('texture', Boolean(texture) && on);
 }
 
 export function press(id, on) {

@@ -1,7 +1,7 @@
 // The levels in three.js, drawn when something changed.
 import {
   BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, Matrix3, Matrix4, Mesh, OrthographicCamera, RawShaderMaterial,
-  Scene, WebGLRenderer,
+  Scene, Texture, WebGLRenderer,
 } from 'three';
 import { fragmentShader, modes, vertexShader, wireFragmentShader } from './shading.js';
 
@@ -9,13 +9,31 @@ const background = 0xeef1f3;
 
 function geometryOf(arrays) {
   const geometry = new BufferGeometry();
-  const { place, normal, colour, corners } = arrays;
+  const { place, normal, colour, coordinate, tangent, corners } = arrays;
   geometry.setAttribute('place', new BufferAttribute(place, 4, true));
   geometry.setAttribute('position', geometry.getAttribute('place')); // where three.js looks for a count
   if (normal) geometry.setAttribute('normal', new BufferAttribute(normal, 4, true));
   if (colour) geometry.setAttribute('colour', new BufferAttribute(colour, 4, true));
+  if (coordinate) {
+    geometry.setAttribute('coordinate', new BufferAttribute(coordinate, 2, true));
+    geometry.setAttribute('tangent', new BufferAttribute(tangent, 4, true));
+  }
   geometry.setIndex(new BufferAttribute(corners, 1));
   return geometry;
+}
+
+const maps = new Map();
+
+/** One for each picture, however many levels share it. */
+function mapOf(image, anisotropy) {
+  if (image && !maps.has(image)) {
+    const map = new Texture(image);
+    map.flipY = false; // coordinates count from the top left
+    map.anisotropy = anisotropy;
+    map.needsUpdate = true;
+    maps.set(image, map);
+  }
+  return maps.get(image) ?? null;
 }
 
 /** Draws one level at a time. Throws where there is no WebGL 2. */
@@ -29,7 +47,8 @@ export class Stage {
   #waiting = false;
   #uniforms = {
     mode: { value: modes.colour }, hasNormals: { value: false }, hasColours: { value: false },
-    distanceScale: { value: 0 }, turn: { value: new Matrix3() },
+    distanceScale: { value: 0 }, turn: { value: new Matrix3() }, colourMap: { value: null }, normalMap: { value: null },
+    textured: { value: false }, bent: { value: false },
   };
   #surface = new RawShaderMaterial({
     uniforms: this.#uniforms, vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide,
@@ -43,6 +62,7 @@ export class Stage {
     this.#canvas = canvas;
     this.pose = pose;
     this.wireframe = false;
+    this.textured = true;
     this.#renderer = new WebGLRenderer({ canvas, antialias: true });
     this.#renderer.setClearColor(background, 1);
     this.#turned.matrixAutoUpdate = false;
@@ -51,15 +71,17 @@ export class Stage {
     canvas.addEventListener('webglcontextrestored', () => this.draw());
   }
 
-  /** @param {import('./levels.js').Level} level */
-  meshes(level, arrays) {
+  /** @param {import('./levels.js').Level} level @param {(HTMLImageElement|null)[]} images colours and normals */
+  meshes(level, arrays, images) {
     const geometry = geometryOf(arrays);
     const pair = [new Mesh(geometry, this.#surface), new Mesh(geometry, this.#lines)];
     for (const mesh of pair) {
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
     }
-    return { level, pair };
+    const anisotropy = Math.min(8, this.#renderer.capabilities.getMaxAnisotropy());
+    const [colourMap, normalMap] = images.map((image) => mapOf(image, anisotropy));
+    return { level, pair, colourMap, normalMap };
   }
 
   show(meshes) {
@@ -68,6 +90,8 @@ export class Stage {
     this.#turned.add(...meshes.pair);
     this.#uniforms.hasNormals.value = meshes.level.normals;
     this.#uniforms.hasColours.value = meshes.level.colours;
+    this.#uniforms.colourMap.value = meshes.colourMap;
+    this.#uniforms.normalMap.value = meshes.normalMap;
     this.draw();
   }
 
@@ -107,6 +131,8 @@ export class Stage {
     this.#turned.matrixWorldNeedsUpdate = true;
     this.#uniforms.turn.value.setFromMatrix4(rotation);
     this.#shown.pair[1].visible = this.wireframe;
+    this.#uniforms.textured.value = this.textured && this.#shown.colourMap !== null;
+    this.#uniforms.bent.value = this.textured && this.#shown.normalMap !== null;
     this.#renderer.render(this.#scene, this.#camera);
     this.#canvas.dataset.drawn = String(Number(this.#canvas.dataset.drawn ?? 0) + 1);
   }

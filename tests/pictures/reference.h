@@ -1,0 +1,45 @@
+// What the program drew under frames that were not captured, and the same of a level.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "capture/view_image.h"
+#include "tools/mesh/level.h"
+#include "tools/render/raster.h"
+
+namespace glcast::pictures {
+
+/// Where an image stands in the capture frame. `from_capture`: the capture frame to the image's own, a
+/// rotation.
+struct ReferenceView {
+    std::string name;      ///< "1 -x": number of the frame, side
+    OrthoView camera;      ///< capture frame
+    SeenImage seen;        ///< as drawn, no light
+    std::vector<char> lit; ///< covered pixels that have a normal
+};
+
+ReferenceView reference_view(const ViewImage& image, const Box& box, const glm::dmat4& from_capture,
+                             std::string name);
+
+/// All of the views beside the capture (GLCAST_REFERENCE_VIEWS). Throws std::runtime_error where there are
+/// none, one cannot be read, or belongs to another frame.
+std::vector<ReferenceView> read_references(const std::filesystem::path& capture);
+
+/// Colour times light: ambient .3, .45 from the camera, .25 from its upper left, as far as the normal is
+/// turned there. Background is light grey. The level has no light where the reference has none.
+Picture lit(const ReferenceView& view);
+Picture lit(const SeenImage& level, const ReferenceView& where);
+
+/// Over all pixels of all views at once.
+struct PictureError {
+    double psnr = 0;             ///< all pixels, background too
+    double psnr_covered = 0;     ///< only pixels that the original or the level covers
+    double psnr_worst = 0;       ///< of the worst single view, all pixels
+    double ssim = 0;             ///< mean of the views
+    double background_share = 0; ///< pixels that neither covers
+    std::size_t views = 0;
+};
+PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views);
+
+} // namespace glcast::pictures

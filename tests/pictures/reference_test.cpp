@@ -1,0 +1,179 @@
+// Levels against views that were not captured: a mesh that is what was drawn looks like it, one that is not
+// does not.
+#include <gtest/gtest.h>
+
+#include <glm/matrix.hpp>
+
+#include "capture/reference_views.h"
+#include "fixtures/shapes.h"
+#include "tests/capture/scenes.h"
+#include "tests/mesh/bodies.h"
+#include "tests/pictures/reference.h"
+#include "tests/support/osmesa_context.h"
+#include "tools/render/render.h"
+
+namespace glcast::pictures {
+namespace {
+
+constexpr int n = 96;
+
+/// 36 views of a fixture, by the engine.
+std::vector<ReferenceView> views_of(const std::string& shape) {
+    test::OsmesaContext context;
+    fixtures::Scene scene(context.gl(), shape, fixtures::Way::immediate);
+    const DrawFunction draw = [&](const GlTable& gl) { scene.draw_shape(gl); };
+    EngineOptions options = test::small_options(n);
+    std::vector<ReferenceView> views;
+    for (const glm::dmat4& rotation : reference_rotations(max_reference_views)) {
+        options.eye_to_capture = rotation;
+        const test::Cast cast = test::capture(context.gl(), draw, options);
+        EXPECT_TRUE(cast.report.ok) << cast.report.error;
+        for (const ViewImage& image : cast.images)
+            views.push_back(reference_view(image, cast.report.box, rotation, ""));
+    }
+    return views;
+}
+
+Mesh moved(Mesh mesh, const glm::dvec3& by) {
+    for (glm::dvec3& p : mesh.positions) p += by;
+    return mesh;
+}
+
+TEST(PictureError, WhatWasDrawnLooksLikeItself) {
+    for (const std::string shape : {"spheres", "teapot", "cube"}) {
+        SCOPED_TRACE(shape);
+        const std::vector<ReferenceView> views = views_of(shape);
+        ASSERT_EQ(views.size(), 36u);
+        const Mesh mesh = fixtures::truth(shape);
+        const PictureError same = picture_error(mesh, {}, views);
+        EXPECT_GT(same.psnr, 44) << "only pixels on silhouettes may differ";
+        EXPECT_GT(same.ssim, 0.998);
+        EXPECT_LT(same.psnr_covered, same.psnr);
+        EXPECT_LE(same.psnr_worst, same.psnr);
+        EXPECT_GT(same.background_share, 0.2);
+        const double sample = views[0].camera.pixel;
+        const PictureError shifted = picture_error(moved(mesh, glm::dvec3(sample)), {}, views);
+        EXPECT_LT(shifted.psnr, same.psnr - 10) << "a sample aside along each axis";
+    }
+}
+
+TEST(PictureError, ColoursAndNormalsCount) {
+    const std::vector<ReferenceView> views = views_of("torus");
+    Mesh mesh = fixtures::truth("torus");
+    const PictureError same = picture_error(mesh, {}, views);
+    Mesh dark = mesh;
+    for (glm::vec3& colour : dark.colours) colour *= 0.8f;
+    EXPECT_LT(picture_error(dark, {}, views).psnr, same.psnr - 6);
+    for (glm::vec3& normal : mesh.normals) normal = -normal;
+    EXPECT_LT(picture_error(mesh, {}, views).psnr, same.psnr - 6);
+}
+
+/// Every pixel of the error in closed form: a picture that is all background against one square of n x n.
+TEST(PictureError, AMissingSquareInClosedForm) {
+    ViewImage image = blank_image({Axis::z, Side::plus, 0}, n);
+    const int side = 30;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) image.colour[std::size_t(40 + j) * n + 20 + i] = glm::vec4(0, 0, 0, 1);
+    const ReferenceView view = reference_view(image, {glm::dvec3(-1), 2}, glm::dmat4(1.0), "");
+    Mesh aside; // out of the picture
+    aside.positions = {{10, 10, 0}, {11, 10, 0}, {10, 11, 0}};
+    aside.triangles = {{0, 1, 2}};
+    const PictureError error = picture_error(aside, {}, {&view, 1});
+    const double value = 242.0 / 255, share = double(side * side) / (n * n);
+    EXPECT_NEAR(error.psnr, -10 * std::log10(value * value * share), 1e-9);
+    EXPECT_NEAR(error.psnr_covered, -10 * std::log10(value * value), 1e-9);
+    EXPECT_NEAR(error.background_share, 1 - share, 1e-12);
+    EXPECT_LT(error.ssim, 1);
+}
+
+/// Two ways to draw the same mesh, one of them Mesa's.
+TEST(Raster, SeesWhatOsmesaDraws) {
+    Mesh mesh = fixtures::truth("teapot");
+    mesh.colours.assign(mesh.positions.size(), glm::vec3(1));
+    const int size = 200;
+    const glm::dvec3 way = glm::normalize(glm::dvec3(-1, -2, -0.5));
+    const Picture osmesa = picture(mesh, way, size);
+    const Picture own = picture(mesh, {}, way, size);
+    long off = 0;
+    for (std::size_t i = 0; i < own.rgb.size(); ++i)
+        off += std::abs(int(own.rgb[i]) - int(osmesa.rgb[i])) > 6;
+    EXPECT_LT(double(off) / double(own.rgb.size()), 0.01); // light per pixel here, per vertex there
+}
+
+/// What was captured stands over what was drawn: same place, same scale, same light, and no tile turned or mirrored.
+TEST(Sheet, CapturedViewsLieOverTheLevels) {
+    test::OsmesaContext context;
+    fixtures::Scene scene(context.gl(), "teapot", fixtures::Way::immediate);
+    const test::Cast cast =
+        test::capture(context.gl(), [&](const GlTable& gl) { scene.draw_shape(gl); }, test::small_options(128));
+    ASSERT_TRUE(cast.report.ok);
+    const Level level{fixtures::truth("teapot"), "level 0", {}, 0, {}};
+    const CapturedViews captured{"captured", cast.images, cast.report.box};
+    constexpr int size = 100, pitch = size + 1;
+    const Picture sheet = contact_sheet({&level, 1}, size, &captured);
+    const int row = (sheet.height - 12) / 2; // as far below the first row of tiles stands the second
+    for (int column = 0; column < 6; ++column) {
+        double difference = 0, contrast = 0;
+        for (int y = 25; y < 25 + size; ++y)
+            for (int x = 1; x < size; ++x) {
+                const auto at = [&](int px, int py) { return int(sheet.rgb[(std::size_t(py) * sheet.width + px) * 3]); };
+                const int here = column * pitch + x;
+                difference += std::abs(at(here, y) - at(here, y + row));
+                contrast += std::abs(at(here, y) - 242);
+            }
+        EXPECT_LT(difference, 0.1 * contrast) << "column " << column;
+        EXPECT_GT(contrast, 1000);
+    }
+}
+
+/// A square whose texture has four colours and whose normal map leans each way.
+TEST(Raster, TextureAndNormalMap) {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normals.assign(4, glm::vec3(0, 0, 1));
+    mesh.colours.assign(4, glm::vec3(1, 0, 1));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    Texture texture;
+    const glm::vec2 at[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}}; // (0, 0) is the top left
+    for (const Triangle& t : mesh.triangles) {
+        texture.coordinates.push_back({at[t[0]], at[t[1]], at[t[2]]});
+        texture.tangents.push_back({glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1)});
+    }
+    texture.colour = {2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 0}};
+    texture.normal = {2, 2, {255, 128, 128, 0, 128, 128, 128, 255, 128, 128, 128, 255}};
+    OrthoView view;
+    view.width = view.height = 8;
+    view.pixel = 0.25;
+    const SeenImage seen = rasterise(mesh, texture, view);
+    const auto pixel = [](int x, int y) { return std::size_t(y) * 8 + x; };
+    EXPECT_EQ(std::count(seen.covered.begin(), seen.covered.end(), 1), 64);
+    EXPECT_EQ(seen.colour[pixel(0, 0)], glm::vec3(1, 0, 0));
+    EXPECT_EQ(seen.colour[pixel(7, 0)], glm::vec3(0, 1, 0));
+    EXPECT_EQ(seen.colour[pixel(0, 7)], glm::vec3(0, 0, 1));
+    EXPECT_EQ(seen.colour[pixel(7, 7)], glm::vec3(1, 1, 0));
+    EXPECT_GT(seen.normal[pixel(0, 0)].x, 0.99f);
+    EXPECT_LT(seen.normal[pixel(7, 0)].x, -0.99f);
+    EXPECT_GT(seen.normal[pixel(0, 7)].y, 0.99f) << "+y of the map is up in the picture";
+    EXPECT_GT(seen.normal[pixel(7, 7)].z, 0.99f);
+    texture.coordinates.pop_back();
+    EXPECT_THROW(rasterise(mesh, texture, view), std::runtime_error);
+}
+
+/// Neighbours share each pixel on their edge: no hole shows what lies behind.
+TEST(Raster, NoCracksBetweenTriangles) {
+    const Mesh ball = test::sphere(1, 4);
+    OrthoView view;
+    view.width = view.height = 333;
+    view.pixel = 2.0 / 333;
+    const SeenImage seen = rasterise(ball, {}, view);
+    for (int y = 0; y < 333; ++y)
+        for (int x = 0; x < 333; ++x) {
+            const double dx = (x + 0.5) / 166.5 - 1, dy = (y + 0.5) / 166.5 - 1;
+            const double distance = std::hypot(dx, dy);
+            if (distance > 0.95 && distance < 1) continue;
+            EXPECT_EQ(bool(seen.covered[std::size_t(y) * 333 + x]), distance < 1) << x << ' ' << y;
+        }
+}
+
+} // namespace
+} // namespace glcast::pictures

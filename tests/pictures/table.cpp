@@ -1,0 +1,175 @@
+// Rows of docs/levels.md: how far the levels of a cast are from what was drawn, in space and in pictures. See
+// make-table.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "capture/output_file.h"
+#include "tests/pictures/originals.h"
+#include "tests/pictures/reference.h"
+#include "tools/deviation/deviation.h"
+#include "tools/io/capture_reader.h"
+#include "tools/io/mesh_io.h"
+#include "tools/render/render.h"
+
+namespace glcast::pictures {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string name, capture, levels, textured, original, json, pictures;
+    std::vector<std::size_t> targets{10'000, 2'000, 500};
+    bool simplify_original = true;
+};
+
+struct Context {
+    const Options& options;
+    std::vector<ReferenceView> views;
+    Mesh truth;         ///< what geometric errors are measured against
+    bool known = false; ///< the program's own mesh, not our full surface
+    double sample = 0;
+    Json rows = Json::array();
+};
+
+Json measured(Context& context, const std::string& how, std::size_t target, const Mesh& mesh,
+              const Texture& texture) {
+    DeviationOptions points;
+    points.visible_only = context.known; // what a cast cannot see it need not have
+    const Deviation d = deviation(context.truth, mesh, points);
+    const PictureError error = picture_error(mesh, texture, context.views);
+    Json row = {{"program", context.options.name},
+                {"how", how},
+                {"target", target},
+                {"triangles", mesh.triangles.size()},
+                {"textured", !texture.empty()},
+                {"against", context.known ? "the program's mesh" : "the full surface of the cast"},
+                {"sample", context.sample},
+                {"meanError", std::max(d.a_to_b.mean, d.b_to_a.mean)},
+                {"p999Error", std::max(d.a_to_b.p999, d.b_to_a.p999)},
+                {"maxError", std::max(d.a_to_b.max, d.b_to_a.max)},
+                {"diagonal", d.diagonal_a},
+                {"views", error.views},
+                {"psnr", error.psnr},
+                {"psnrCovered", error.psnr_covered},
+                {"psnrWorstView", error.psnr_worst},
+                {"ssim", error.ssim},
+                {"backgroundShare", error.background_share}};
+    std::fprintf(
+        stderr,
+        "%-14s %-16s %7zu triangles: mean %.4f samples, %.2f dB (covered %.2f, worst view %.2f), SSIM %.4f\n",
+        context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
+        row["meanError"].get<double>() / context.sample, error.psnr, error.psnr_covered, error.psnr_worst,
+        error.ssim);
+    context.rows.push_back(row);
+    return row;
+}
+
+/// The finest level with at most so many triangles.
+const Level* level_of(const std::vector<Level>& levels, std::size_t target) {
+    for (const Level& level : levels)
+        if (level.mesh.triangles.size() <= target) return &level;
+    return nullptr;
+}
+
+/// Of one view: where the most is seen.
+const ReferenceView& fullest(const std::vector<ReferenceView>& views) {
+    const auto covered = [](const ReferenceView& v) {
+        return std::count(v.seen.covered.begin(), v.seen.covered.end(), 1);
+    };
+    return *std::max_element(views.begin(), views.end(),
+                             [&](const auto& a, const auto& b) { return covered(a) < covered(b); });
+}
+
+void write_picture(const Context& context, const std::string& what, const Mesh& mesh,
+                   const Texture& texture) {
+    if (context.options.pictures.empty()) return;
+    const ReferenceView& view = fullest(context.views);
+    write_png(context.options.pictures + "/" + context.options.name + "-" + what + ".png",
+              lit(rasterise(mesh, texture, view.camera), view));
+}
+
+void add_levels(Context& context, const std::string& file, const std::string& how) {
+    const std::vector<Level> levels = read_levels(file);
+    if (how == "vertex colours") {
+        measured(context, "full surface", 0, levels[0].mesh, {});
+        write_picture(context, "full", levels[0].mesh, {});
+    }
+    for (const std::size_t target : context.options.targets) {
+        const Level* level = level_of(levels, target);
+        if (!level)
+            throw std::runtime_error(file + " has no level of at most " + std::to_string(target) +
+                                     " triangles");
+        measured(context, how, target, level->mesh, level->texture);
+        if (how == "textured" && level->texture.empty()) throw std::runtime_error(file + " has no texture");
+        write_picture(context, how.substr(0, how.find(' ')) + "-" + std::to_string(target), level->mesh,
+                      level->texture);
+    }
+}
+
+void add_simplified(Context& context) {
+    measured(context, "original", 0, context.truth, {});
+    for (const Simplifier& simplifier : simplifiers())
+        for (const std::size_t target : context.options.targets) {
+            const Mesh mesh = simplified_original(context.truth, simplifier, target);
+            measured(context, simplifier.name, target, mesh, {});
+            write_picture(context, simplifier.name + std::string("-") + std::to_string(target), mesh, {});
+        }
+}
+
+/// The mean of what was captured: for meshes whose colour the program chose.
+void colour_like_the_capture(Mesh& mesh, const std::vector<ReferenceView>& views) {
+    glm::dvec3 sum(0);
+    double count = 0;
+    for (const ReferenceView& view : views)
+        for (std::size_t p = 0; p < view.seen.covered.size(); ++p)
+            if (view.seen.covered[p]) sum += glm::dvec3(view.seen.colour[p]), ++count;
+    mesh.colours.assign(mesh.positions.size(), glm::vec3(sum / count));
+}
+
+void run(const Options& options) {
+    Context context{options, read_references(options.capture), {}, !options.original.empty()};
+    const CaptureInfo info = read_capture_info(options.capture);
+    context.sample = info.box.size / info.n;
+    if (context.known) {
+        context.truth = original(options.original);
+        if (context.truth.colours.empty()) colour_like_the_capture(context.truth, context.views);
+    } else {
+        context.truth = read_levels(options.levels)[0].mesh;
+    }
+    if (!options.pictures.empty())
+        write_png(options.pictures + "/" + options.name + "-original.png", lit(fullest(context.views)));
+    add_levels(context, options.levels, "vertex colours");
+    if (!options.textured.empty()) add_levels(context, options.textured, "textured");
+    if (context.known) add_simplified(context);
+    std::ofstream(options.json) << context.rows.dump(1) << '\n';
+}
+
+} // namespace
+} // namespace glcast::pictures
+
+int main(int count, char** arguments) {
+    glcast::pictures::Options options;
+    CLI::App app("Errors of levels of detail against what the program drew.");
+    app.add_option("--name", options.name)->required();
+    app.add_option("--capture", options.capture, "made with GLCAST_REFERENCE_VIEWS")->required();
+    app.add_option("--levels", options.levels, "mesh with levels, colours of vertices")->required();
+    app.add_option("--textured", options.textured, "mesh with levels, textured");
+    app.add_option("--original", options.original, "teapot, spheres or t.obj");
+    app.add_option("--json", options.json, "rows to write")->required();
+    app.add_option("--pictures", options.pictures, "folder for pictures of the levels");
+    app.add_option("--targets", options.targets)->delimiter(',');
+    CLI11_PARSE(app, count, arguments);
+    try {
+        glcast::pictures::run(options);
+    } catch (const std::exception& error) {
+        std::cerr << "picture-table: " << error.what() << '\n';
+        return 1;
+    }
+    return 0;
+}
