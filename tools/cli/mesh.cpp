@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include "tools/cli/command.h"
+#include "tools/cli/texture.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
@@ -25,6 +26,7 @@ struct Options {
     std::string capture, output, method = "contour", exterior = "layers", normals = "drawn";
     double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> edges, triangles, ratio;
+    int texture = 0; ///< texels along an edge; 0: none
     bool check = false, json = false;
 };
 
@@ -43,11 +45,13 @@ struct Made {
     ReconstructReport report;
     std::vector<Level> levels;     ///< [0]: the full surface, until write() leaves it out
     std::vector<MeshCheck> checks; ///< of levels
+    CapturedSurface captured;      ///< where a texture is asked for
+    std::vector<TextureReport> textures; ///< of levels, or none
     bool keep_full = true;         ///< .glb holds it always, the others when no target was given
     std::vector<std::filesystem::path> files;
     double sample = 0;
     double read_seconds = 0, surface_seconds = 0, simplify_seconds = 0, measure_seconds = 0,
-           write_seconds = 0;
+           write_seconds = 0, texture_seconds = 0;
 
     const Mesh& full() const { return levels[0].mesh; }
 };
@@ -126,7 +130,8 @@ void make_surface(const Options& options, Made& made) {
     const Progress progress("making the surface");
     const Stopwatch watch;
     made.sample = made.info.box.size / made.info.n;
-    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how_to(options, made.info), &made.report),
+    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how_to(options, made.info), &made.report,
+                                       options.texture ? &made.captured : nullptr),
                            "level 0", {}, made.sample, {}});
     made.checks.push_back(check_mesh(made.full(), depth(options)));
     made.surface_seconds = watch.seconds();
@@ -158,6 +163,14 @@ void make_levels(const Options& options, Made& made) {
     made.simplify_seconds = watch.seconds();
 }
 
+void bake_textures(const Options& options, Made& made) {
+    if (!options.texture) return;
+    const Stopwatch watch;
+    made.textures = texture_levels(made.levels, made.captured, options.texture);
+    made.captured = {}; // it is large
+    made.texture_seconds = watch.seconds();
+}
+
 /// Against the full surface, both ways, the larger; hidden parts of the surface count as all others.
 void measure_levels(Made& made) {
     const Progress progress("measuring");
@@ -177,6 +190,7 @@ void write(const Options& options, Made& made) {
     const Progress progress("writing " + options.output);
     const Stopwatch watch;
     if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
+    if (made.textures.size() > made.levels.size()) made.textures.erase(made.textures.begin());
     made.files = write_levels(options.output, made.levels);
     made.write_seconds = watch.seconds();
 }
@@ -190,6 +204,7 @@ Json describe_level(const Made& made, std::size_t k) {
     json["maxError"] = level.error.max;
     json["meanErrorSamples"] = level.error.mean / made.sample;
     json["maxErrorSamples"] = level.error.max / made.sample;
+    if (!made.textures.empty()) json["texture"] = to_json(made.textures[k]);
     return json;
 }
 
@@ -216,7 +231,8 @@ void print_made(const Options& options, const Made& made) {
     json["seconds"] = {{"read", made.read_seconds},       {"carve", r.carve_seconds},
                        {"contour", r.surface_seconds},    {"attributes", r.attribute_seconds},
                        {"surface", made.surface_seconds}, {"simplify", made.simplify_seconds},
-                       {"measure", made.measure_seconds}, {"write", made.write_seconds}};
+                       {"texture", made.texture_seconds}, {"measure", made.measure_seconds},
+                       {"write", made.write_seconds}};
     json["peakBytes"] = usage.ru_maxrss * 1024L;
     print_json(json);
 }
@@ -236,6 +252,7 @@ void say_made(const Options& options, const Made& made) {
                     number(level.error.mean / made.sample) + " samples), max " + number(level.error.max) +
                     " (" + number(level.error.max / made.sample) + ")";
         say(line);
+        if (!made.textures.empty()) say("  " + describe(made.textures[k], options.texture));
     }
     for (const auto& file : made.files)
         say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
@@ -246,6 +263,7 @@ int make_mesh(const Options& options) {
     Made made;
     make_surface(options, made);
     make_levels(options, made);
+    bake_textures(options, made);
     measure_levels(made);
     write(options, made);
     if (options.json)
@@ -312,6 +330,13 @@ Run declare_mesh(CLI::App& app) {
     app.add_option("--normals", options->normals, "drawn: as the program lit it; geometric: of the surface")
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();
+    app.add_option("--texture", options->texture,
+                   "bake colours and normals of every level into textures so many texels wide: 64, 128, ... 8192")
+        ->check(texture_size());
+    app.parse_complete_callback([options] {
+        if (options->texture && options->method == "cubes")
+            throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
+    });
     app.add_flag("--check", options->check, "count self-intersections of every level too");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return make_mesh(*options); };

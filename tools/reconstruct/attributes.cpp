@@ -15,11 +15,6 @@ constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a 
 constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
-struct Attribute {
-    glm::vec3 colour{0}, normal{0}; ///< normal 0: none drawn
-    bool found = false;
-};
-
 struct Pixel {
     float weight = 0, distance = 0;
     glm::vec3 plane{0}, normal{0}, colour{0};
@@ -55,10 +50,13 @@ class Opinion {
             if (best.normal != glm::vec3(0) && glm::dot(p.normal, best.normal) < same_facet) continue;
             out.colour += p.colour * p.weight;
             out.normal += p.normal * p.weight;
+            out.plane += (glm::dot(p.plane, best.plane) < 0 ? -p.plane : p.plane) * p.weight;
             weights += p.weight;
         }
         out.colour /= weights;
         out.normal = unit_or_zero(out.normal);
+        out.plane = unit_or_zero(out.plane);
+        if ((out.plane[axis] > 0) != (side == 1)) out.plane = -out.plane;
         out.found = true;
         return out;
     }
@@ -104,20 +102,6 @@ class Opinion {
     Pixel pixels[4];
     int count = 0;
 };
-
-/// The view that faces the surface most squarely and agrees.
-Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal) {
-    int order[3] = {0, 1, 2};
-    std::sort(order, order + 3, [&](int a, int b) {
-        const float fa = std::abs(surface_normal[a]), fb = std::abs(surface_normal[b]);
-        return fa != fb ? fa > fb : a < b;
-    });
-    for (int axis : order) {
-        const Attribute found = Opinion(rays, axis, surface_normal[axis] > 0 ? 1 : 0, at).mix();
-        if (found.found) return found;
-    }
-    return {};
-}
 
 std::vector<glm::vec3> surface_normals(const Mesh& mesh) {
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0));
@@ -203,6 +187,19 @@ std::uint32_t hit_near(const AxisHits& hits, std::size_t pixel, float depth, int
 }
 
 } // namespace
+
+Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal) {
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int a, int b) {
+        const float fa = std::abs(surface_normal[a]), fb = std::abs(surface_normal[b]);
+        return fa != fb ? fa > fb : a < b;
+    });
+    for (int axis : order) {
+        const Attribute found = Opinion(rays, axis, surface_normal[axis] > 0 ? 1 : 0, at).mix();
+        if (found.found) return found;
+    }
+    return {};
+}
 
 std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
     mesh.normals = surface_normals(mesh);

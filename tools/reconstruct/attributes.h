@@ -6,6 +6,17 @@
 
 namespace glcast {
 
+struct Attribute {
+    glm::vec3 colour{0};
+    glm::vec3 normal{0}; ///< unit, as drawn; 0: none was drawn
+    glm::vec3 plane{0};  ///< unit normal of the tangent planes, on the side of the surface's
+    bool found = false;
+};
+
+/// What the view that faces the surface most squarely, and agrees, saw at a point of it; in samples. Bilinear
+/// among the pixels that agree.
+Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal);
+
 /// Fills normals (unit) and colours of a contour; positions in samples. Returns how many vertices no pixel
 /// agrees with: their colour is the nearest one along the surface, their normal that of the surface.
 std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/reconstruct/attributes.h"
+#include "tools/reconstruct/captured_surface.h"
 #include "tools/reconstruct/carve.h"
 #include "tools/reconstruct/cells.h"
 #include "tools/reconstruct/crossings.h"
@@ -16,6 +17,7 @@
 #include "tools/reconstruct/planes.h"
 #include "tools/reconstruct/quads.h"
 #include "tools/reconstruct/rays.h"
+#include "tools/reconstruct/sides.h"
 #include "tools/reconstruct/vertices.h"
 
 namespace glcast {
@@ -56,7 +58,7 @@ void carve(Rays& rays, const ReconstructOptions& options, ReconstructReport& mad
 } // namespace
 
 Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& options,
-                 ReconstructReport* report) {
+                 ReconstructReport* report, CapturedSurface* captured) {
     if (!(options.close_gaps >= 0) || !std::isfinite(options.close_gaps))
         throw std::runtime_error("the gap radius must be 0 samples or more");
     if (!(options.sheet_thickness >= 0.01 && options.sheet_thickness <= 1))
@@ -81,6 +83,7 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     mesh.triangles = make_triangles(*crossings, grid, mesh.positions, frame.rounding(), quads);
     crossings.reset();
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
+    if (captured) mark_sides(rays);
     grid = {}; // what is done with goes, for large lattices fill the memory
     rays.volume = {};
     assert_manifold(mesh.triangles, mesh.positions.size());
@@ -94,15 +97,16 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     made.crossings = quads.crossings;
     made.unsupported_crossings = quads.unsupported;
     made.unsupported_area_share = quads.unsupported_area_share;
+    if (captured) *captured = CapturedSurface(std::move(rays), box, options.geometric_normals);
     if (report) *report = made;
     return mesh;
 }
 
 Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
-                 ReconstructReport* report) {
+                 ReconstructReport* report, CapturedSurface* captured) {
     HitBuilder hits;
     for (const ViewImage& image : images) hits.add(image);
-    return reconstruct(std::move(hits), box, options, report);
+    return reconstruct(std::move(hits), box, options, report, captured);
 }
 
 } // namespace glcast

@@ -11,6 +11,8 @@
 
 namespace glcast {
 
+class CapturedSurface;
+
 enum class SurfaceMethod {
     contour, ///< dual contouring on the lattice with exact crossings and captured normals
     cubes,   ///< the paper's: a square per exposed face of each filled sub-cube, colour and normal per face
@@ -50,12 +52,12 @@ struct ReconstructReport {
 /// asserted before it is returned (throws std::logic_error, which is a bug), and does not pass through
 /// itself, in capture-frame units, normals unit length, colours as drawn. Throws std::runtime_error when a
 /// view is missing or nothing is filled. The same images give the same mesh, bit for bit, whatever the number
-/// of threads.
+/// of threads. `captured`, when given, takes what the images show of the surface (captured_surface.h).
 Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& options,
-                 ReconstructReport* report = nullptr);
+                 ReconstructReport* report = nullptr, CapturedSurface* captured = nullptr);
 
 /// The same from images in memory. Throws also when they differ in size.
 Mesh reconstruct(std::span<const ViewImage> images, const Box& box, const ReconstructOptions& options,
-                 ReconstructReport* report = nullptr);
+                 ReconstructReport* report = nullptr, CapturedSurface* captured = nullptr);
 
 } // namespace glcast

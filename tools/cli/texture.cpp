@@ -1,0 +1,50 @@
+#include "tools/cli/texture.h"
+
+#include <bit>
+
+namespace glcast::cli {
+namespace {
+
+double unseen_share(const TextureReport& report) {
+    return report.texels ? double(report.texels_unseen) / double(report.texels) : 0;
+}
+
+} // namespace
+
+CLI::Validator texture_size() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            int size = 0;
+            if (CLI::detail::lexical_cast(text, size) && size >= smallest_texture &&
+                size <= largest_texture && std::has_single_bit(unsigned(size)))
+                return {};
+            return "a texture has 64, 128, 256, ... or 8192 texels along an edge, not " + text;
+        },
+        "SIZE");
+}
+
+std::vector<TextureReport> texture_levels(std::span<Level> levels, const CapturedSurface& captured,
+                                          int size) {
+    const Progress progress("baking textures");
+    std::vector<TextureReport> reports(levels.size());
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        levels[k].texture = bake_texture(levels[k].mesh, captured, {.size = size}, &reports[k]);
+    return reports;
+}
+
+nlohmann::ordered_json to_json(const TextureReport& report) {
+    return {{"charts", report.charts},
+            {"gutter", report.gutter},
+            {"texelsPerSample", report.texels_per_sample},
+            {"texels", report.texels},
+            {"unseenShare", unseen_share(report)}};
+}
+
+std::string describe(const TextureReport& report, int size) {
+    const std::string edge = std::to_string(size);
+    return "texture " + edge + " x " + edge + ": " + std::to_string(report.charts) + " charts, " +
+           number(report.texels_per_sample) + " texels a sample, " + number(100 * unseen_share(report)) +
+           " % of it seen by no ray";
+}
+
+} // namespace glcast::cli

@@ -1,0 +1,141 @@
+#include "tools/reconstruct/captured_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "tools/reconstruct/attributes.h"
+#include "tools/reconstruct/sides.h"
+
+namespace glcast {
+namespace {
+
+constexpr int steps = 6;            // of the walk to where a line meets the surface; it mostly needs two
+constexpr double arrived = 0.02;    // samples
+constexpr float steepest = 0.25f;   // cosine: views that see a surface flatter than this are not asked
+constexpr float same_way = 0.2f;    // cosine between the asked and the found facing
+constexpr float across_line = 0.3f; // cosine: a line nearer to a plane's own directions is not followed
+constexpr float same_place = 1e-3f; // samples: the two sides of a sheet
+
+/// A hit and the plane through it, outward.
+struct Plane {
+    glm::dvec3 at{0}; ///< samples
+    glm::vec3 normal{0};
+    std::uint32_t hit = no_hit;
+};
+
+/// Finds surface by the rays of one axis, seen from one side.
+class Walk {
+  public:
+    Walk(const Rays& rays, int axis, const glm::vec3& facing)
+        : rays(rays), hits(rays.axis[axis]), axis(axis), side(facing[axis] > 0 ? 1 : 0),
+          axes(image_axes(Axis(axis))), facing(facing) {}
+
+    /// From `from` along the line; where it leads off the surface, the last plane under way.
+    std::optional<Plane> run(const glm::dvec3& from, const glm::vec3& along, double reach) const {
+        glm::dvec3 at = from;
+        std::optional<Plane> found;
+        for (int step = 0; step < steps; ++step) {
+            const auto next = nearest(at, from[axis], reach);
+            if (!next) break;
+            found = next;
+            const double slope = glm::dot(next->normal, along);
+            if (std::abs(slope) < across_line) break;
+            const double far = glm::dot(glm::dvec3(next->normal), next->at - from) / slope;
+            if (std::abs(far) > reach) break;
+            const glm::dvec3 to = from + far * glm::dvec3(along);
+            const bool done = glm::distance(to, at) < arrived;
+            at = to;
+            if (done) break;
+        }
+        if (found) found->at = on_plane(*found, at);
+        return found;
+    }
+
+  private:
+    /// The hit of the pixel at a point that faces our side, nearest in depth to `depth`.
+    std::optional<Plane> nearest(const glm::dvec3& at, double depth, double reach) const {
+        const int u = int(std::lround(at[axes.u])), v = int(std::lround(at[axes.v]));
+        if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return std::nullopt;
+        const std::size_t pixel = std::size_t(v) * rays.n + u;
+        const std::uint32_t wanted = side ? seen_from_plus : seen_from_minus;
+        Plane best;
+        double away = reach;
+        for (std::uint32_t i = hits.start[pixel]; i < hits.start[pixel + 1]; ++i) {
+            if (!(hits.colour[i] & wanted) || !hits.plane[i]) continue;
+            const double distance = std::abs(hits.depth[i] - depth);
+            if (distance > away + (side ? same_place : -same_place)) continue;
+            glm::vec3 normal = unpack_normal(hits.plane[i]);
+            if ((normal[axis] > 0) != (side == 1)) normal = -normal;
+            if (glm::dot(normal, facing) < same_way) continue;
+            away = std::min(away, distance);
+            best.normal = normal;
+            best.hit = i;
+        }
+        if (best.hit == no_hit) return std::nullopt;
+        best.at[axes.u] = u;
+        best.at[axes.v] = v;
+        best.at[axis] = hits.depth[best.hit];
+        return best;
+    }
+
+    /// The point of the plane in the pixel of its hit that lies nearest to `at` along the rays.
+    glm::dvec3 on_plane(const Plane& plane, glm::dvec3 at) const {
+        for (int k : {axes.u, axes.v}) at[k] = std::clamp(at[k], plane.at[k] - 0.5, plane.at[k] + 0.5);
+        const glm::dvec3 off = at - plane.at;
+        at[axis] =
+            plane.at[axis] - (plane.normal[axes.u] * off[axes.u] + plane.normal[axes.v] * off[axes.v]) /
+                                 std::copysign(std::max(std::abs(double(plane.normal[axis])), 0.1),
+                                               double(plane.normal[axis]));
+        return at;
+    }
+
+    const Rays& rays;
+    const AxisHits& hits;
+    const int axis, side;
+    const ImageAxes axes;
+    const glm::vec3 facing;
+};
+
+} // namespace
+
+CapturedSurface::CapturedSurface(Rays&& given, const Box& box, bool geometric_normals)
+    : rays(std::make_shared<const Rays>(std::move(given))), box(box), geometric_normals(geometric_normals) {}
+
+int CapturedSurface::resolution() const { return rays ? rays->n : 0; }
+double CapturedSurface::sample() const { return rays ? box.size / rays->n : 0; }
+glm::dvec3 CapturedSurface::first_sample() const { return box.lo + 0.5 * sample(); }
+glm::dvec3 CapturedSurface::to_samples(const glm::dvec3& position) const {
+    return (position - box.lo) / sample() - 0.5;
+}
+
+CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                                    double reach) const {
+    if (!rays) return {};
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int a, int b) {
+        const float fa = std::abs(facing[a]), fb = std::abs(facing[b]);
+        return fa != fb ? fa > fb : a < b;
+    });
+    const glm::dvec3 start = to_samples(from);
+    for (int axis : order) {
+        if (std::abs(facing[axis]) < steepest) break;
+        const auto plane = Walk(*rays, axis, facing).run(start, along, reach);
+        if (!plane) continue;
+        CapturedPoint out;
+        out.found = true;
+        out.position = box.lo + (plane->at + 0.5) * sample();
+        const Attribute seen = sample_point(*rays, plane->at, plane->normal);
+        const AxisHits& hits = rays->axis[axis];
+        out.colour = seen.found ? seen.colour : unpack_colour(hits.colour[plane->hit]);
+        out.normal = seen.found ? seen.plane : plane->normal;
+        if (geometric_normals) return out;
+        if (seen.found ? seen.normal != glm::vec3(0) : hits.normal[plane->hit] != 0)
+            out.normal = seen.found ? seen.normal : unpack_normal(hits.normal[plane->hit]);
+        return out;
+    }
+    return {};
+}
+
+} // namespace glcast

@@ -1,0 +1,200 @@
+#include "tools/texture/bake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <stdexcept>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "tools/mesh/point_triangle.h"
+#include "tools/texture/fill.h"
+#include "tools/texture/owners.h"
+#include "tools/texture/shading_normals.h"
+#include "tools/texture/tangents.h"
+
+namespace glcast {
+namespace {
+
+constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
+constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
+
+struct Layout {
+    Charts charts;
+    Atlas atlas;
+    std::vector<glm::vec3> triangle_normals;
+};
+
+void check(const Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options) {
+    if (options.size < smallest_texture || options.size > largest_texture ||
+        !std::has_single_bit(unsigned(options.size)))
+        throw std::runtime_error("a texture has 64, 128, 256, ... or 8192 texels along an edge, not " +
+                                 std::to_string(options.size));
+    if (options.gutter < 2 || options.gutter > 64)
+        throw std::runtime_error("the gutter between charts must be 2 to 64 texels");
+    if (mesh.triangles.empty()) throw std::runtime_error("there is no surface to texture");
+    if (captured.empty()) throw std::runtime_error("there is no captured surface to take a texture from");
+}
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+    const float length = glm::length(v);
+    return length > 1e-6f ? v / length : otherwise;
+}
+
+/// A normal in the tangent frame of a point as viewers make it: the interpolated normal, tangent and
+/// bitangent, each of unit length again, though no longer square to one another.
+glm::vec3 in_frame(const glm::vec3& wanted, const glm::vec3& normal, const glm::vec3& tangent,
+                   const glm::vec3& bitangent) {
+    glm::mat3 frame(tangent, bitangent, normal);
+    if (std::abs(glm::determinant(frame)) < flat_frame) {
+        const glm::vec3 t = unit_or(tangent - normal * glm::dot(normal, tangent), tangent);
+        frame = glm::mat3(t, glm::cross(normal, t), normal);
+        if (glm::dot(frame[1], bitangent) < 0) frame[1] = -frame[1];
+        return unit_or(wanted * frame, {0, 0, 1}); // its transpose: the inverse of what is square
+    }
+    return unit_or(glm::inverse(frame) * wanted, {0, 0, 1});
+}
+
+void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
+    for (int c = 0; c < 3; ++c)
+        picture.rgb[3 * texel + c] = std::uint8_t(std::lround(std::clamp(value[c], 0.0f, 1.0f) * 255));
+}
+
+class Baker {
+  public:
+    Baker(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout, Texture& texture)
+        : mesh(mesh), captured(captured), layout(layout), texture(texture), reach(captured.default_reach()) {}
+
+    /// Returns whether a ray saw the point of the surface.
+    bool bake(int x, int y, std::uint32_t t) {
+        const Triangle& v = mesh.triangles[t];
+        const glm::dvec3 w = weights(x, y, t);
+        const glm::vec3 weight(w);
+        const glm::dvec3 point =
+            w.x * mesh.positions[v[0]] + w.y * mesh.positions[v[1]] + w.z * mesh.positions[v[2]];
+        const auto mix = [&](const auto& a, const auto& b, const auto& c) {
+            return weight.x * a + weight.y * b + weight.z * c;
+        };
+        const glm::vec3 normal =
+            unit_or(mix(mesh.normals[v[0]], mesh.normals[v[1]], mesh.normals[v[2]]), mesh.normals[v[0]]);
+        const glm::vec3 facing =
+            layout.triangle_normals[t] != glm::vec3(0) ? layout.triangle_normals[t] : normal;
+        const CapturedPoint seen = captured.find(point, normal, facing, reach);
+        const std::size_t texel = std::size_t(y) * texture.colour.width + x;
+        glm::vec3 colour = seen.colour;
+        if (!seen.found)
+            colour = mesh.colours.empty() ? glm::vec3(0.5f)
+                                          : mix(mesh.colours[v[0]], mesh.colours[v[1]], mesh.colours[v[2]]);
+        put(texture.colour, texel, colour);
+        put(texture.normal, texel,
+            0.5f + 0.5f * (seen.found ? encoded(t, v, mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
+        return seen.found;
+    }
+
+  private:
+    /// Of the texel's centre, or of the nearest point of the triangle.
+    glm::dvec3 weights(int x, int y, std::uint32_t t) const {
+        const auto c = in_atlas(mesh, layout.charts, layout.atlas, t);
+        return nearest_in_triangle({x + 0.5, y + 0.5, 0}, {c[0].x, c[0].y, 0}, {c[1].x, c[1].y, 0},
+                                   {c[2].x, c[2].y, 0})
+            .weights;
+    }
+
+    template <class Mix>
+    glm::vec3 encoded(std::uint32_t t, const Triangle& v, const Mix& mix, const glm::vec3& normal,
+                      const glm::vec3& wanted) const {
+        glm::vec3 tangent[3], bitangent[3];
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec4& own = texture.tangents[t][k];
+            tangent[k] = glm::vec3(own);
+            bitangent[k] = own.w * glm::cross(mesh.normals[v[k]], tangent[k]);
+        }
+        return in_frame(wanted, normal, unit_or(mix(tangent[0], tangent[1], tangent[2]), tangent[0]),
+                        unit_or(mix(bitangent[0], bitangent[1], bitangent[2]), bitangent[0]));
+    }
+
+    const Mesh& mesh;
+    const CapturedSurface& captured;
+    const Layout& layout;
+    Texture& texture;
+    const double reach;
+};
+
+Picture blank(int size) { return {size, size, std::vector<std::uint8_t>(std::size_t(size) * size * 3)}; }
+
+void set_coordinates(const Mesh& mesh, const Layout& layout, Texture& texture) {
+    texture.coordinates.resize(mesh.triangles.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(mesh.triangles.size()), 4096),
+                      [&](const auto& range) {
+                          for (std::uint32_t t = range.begin(); t < range.end(); ++t) {
+                              const auto corners = in_atlas(mesh, layout.charts, layout.atlas, t);
+                              for (int k = 0; k < 3; ++k)
+                                  texture.coordinates[t][k] =
+                                      glm::vec2(corners[k] / double(layout.atlas.size));
+                          }
+                      });
+}
+
+void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout,
+                 const std::vector<std::uint32_t>& owners, Texture& texture, TextureReport& made) {
+    const int size = layout.atlas.size;
+    texture.colour = blank(size);
+    texture.normal = blank(size);
+    std::vector<std::uint8_t> known(owners.size());
+    std::atomic<std::size_t> texels = 0, unseen = 0;
+    tbb::parallel_for(0, size, [&](int y) {
+        Baker baker(mesh, captured, layout, texture);
+        std::size_t mine = 0, missed = 0;
+        for (int x = 0; x < size; ++x) {
+            const std::uint32_t owner = owners[std::size_t(y) * size + x];
+            if (owner == no_triangle) continue;
+            known[std::size_t(y) * size + x] = 1;
+            ++mine;
+            missed += !baker.bake(x, y, owner);
+        }
+        texels += mine;
+        unseen += missed;
+    });
+    made.texels = texels;
+    made.texels_unseen = unseen;
+    fill_unknown(texture.colour, known);
+    fill_unknown(texture.normal, known);
+}
+
+} // namespace
+
+Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options,
+                     TextureReport* report) {
+    check(mesh, captured, options);
+    const double sample = captured.sample();
+    const glm::dvec3 origin = captured.first_sample();
+    TextureReport made;
+    Texture texture;
+    Layout layout;
+    const Neighbours neighbours = find_neighbours(mesh);
+    layout.triangle_normals = triangle_normals(mesh);
+    make_shading_normals(mesh, neighbours, layout.triangle_normals);
+    layout.charts = make_charts(
+        mesh, neighbours, choose_views(mesh, neighbours, layout.triangle_normals, crumb * sample * sample),
+        sample, origin);
+    layout.atlas = pack(layout.charts, options.size, options.gutter, 1 / sample, origin);
+    set_coordinates(mesh, layout, texture);
+    texture.tangents = make_tangents(mesh, neighbours, layout.charts.of, texture.coordinates);
+    const auto owners = find_owners(mesh, neighbours, layout.charts, layout.atlas);
+    bake_texels(mesh, captured, layout, owners, texture, made);
+
+    made.charts = layout.charts.charts.size();
+    made.gutter = layout.atlas.gutter;
+    made.texels_per_sample = layout.atlas.density * sample;
+    if (report) {
+        made.texels_twice = covered_twice(mesh, layout.charts, layout.atlas);
+        *report = made;
+    }
+    return texture;
+}
+
+} // namespace glcast

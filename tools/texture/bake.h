@@ -1,0 +1,36 @@
+// Textures of a level of detail, baked from the captured images.
+// Natvig 2006, "future work"; normal maps for simplified meshes: Cohen, Olano and Manocha 1998,
+// "Appearance-preserving simplification".
+#pragma once
+#include "tools/mesh/mesh.h"
+#include "tools/mesh/texture.h"
+#include "tools/reconstruct/captured_surface.h"
+
+namespace glcast {
+
+inline constexpr int smallest_texture = 64, largest_texture = 8192;
+
+struct TextureOptions {
+    int size =
+        2048; ///< texels along an edge of the atlas; a power of two from smallest_texture to largest_texture
+    int gutter =
+        8; ///< texels between charts, 2 to 64; fewer, but at least 2, where charts are too many for that
+};
+
+struct TextureReport {
+    std::size_t charts = 0;
+    int gutter = 0;                ///< texels between charts
+    double texels_per_sample = 0;  ///< along an axis; 1 at most: a texel a pixel of the capture
+    std::size_t texels = 0;        ///< that show the surface or the gutter beside it
+    std::size_t texels_unseen = 0; ///< of these, where no ray saw the surface: colours of the vertices
+    std::size_t texels_twice = 0;  ///< that two parts of one chart cover, thinner than a sample
+};
+
+/// The texture of a closed level, and the vertex normals that belong to it, which replace mesh.normals
+/// (shading_normals.h); colours of the vertices stay. Throws std::runtime_error when options are out of
+/// range, the mesh is empty, or the atlas is too small for its charts. The same input gives the same texture,
+/// bit for bit, on any number of threads.
+Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options,
+                     TextureReport* report = nullptr);
+
+} // namespace glcast

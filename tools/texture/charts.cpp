@@ -1,0 +1,140 @@
+#include "tools/texture/charts.h"
+
+#include <deque>
+#include <limits>
+#include <tbb/parallel_for.h>
+
+#include "tools/texture/plane_cells.h"
+
+namespace glcast {
+namespace {
+
+constexpr double inset = 1e-6; // cells: neighbours share a side, which covers nothing twice
+constexpr std::uint32_t none = ~0u;
+
+/// The triangles of one connected part, and the grid that they lie on.
+class Part {
+  public:
+    Part(const Mesh& mesh, const Neighbours& neighbours, ViewNumber view, double cell,
+         const glm::dvec3& origin, std::span<const std::uint32_t> triangles)
+        : mesh(mesh), neighbours(neighbours), triangles(triangles), view(view), cell(cell), origin(origin) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+        for (std::uint32_t t : triangles)
+            for (const glm::dvec2& p : corners(t)) {
+                low = glm::dvec2(std::min(low.x, p.x), std::min(low.y, p.y));
+                high = glm::dvec2(std::max(high.x, p.x), std::max(high.y, p.y));
+            }
+        x0 = int(std::floor(low.x)), y0 = int(std::floor(low.y));
+        width = int(std::ceil(high.x)) - x0 + 1, height = int(std::ceil(high.y)) - y0 + 1;
+        grid.assign(std::size_t(width) * height, none);
+    }
+
+    /// Number of charts; `of` says for each triangle of the part which.
+    std::uint32_t split(std::vector<std::uint32_t>& of) {
+        bool covers = false;
+        for (std::size_t i = 0; i < triangles.size() && !covers; ++i) covers = !put(triangles[i], 0);
+        if (!covers) {
+            for (std::uint32_t t : triangles) of[t] = 0;
+            return 1;
+        }
+        std::fill(grid.begin(), grid.end(), none);
+        for (std::uint32_t t : triangles) of[t] = none;
+        std::uint32_t count = 0;
+        for (std::uint32_t seed : triangles)
+            if (of[seed] == none) grow(seed, count++, of);
+        return count;
+    }
+
+  private:
+    std::array<glm::dvec2, 3> corners(std::uint32_t t) const {
+        std::array<glm::dvec2, 3> out;
+        for (int k = 0; k < 3; ++k)
+            out[k] = in_picture((mesh.positions[mesh.triangles[t][k]] - origin) / cell, view);
+        return out;
+    }
+    std::uint32_t& at(int x, int y) { return grid[std::size_t(y - y0) * width + (x - x0)]; }
+
+    /// False, and nothing is done, where the triangle would cover a cell of the chart.
+    bool put(std::uint32_t t, std::uint32_t chart) {
+        const auto where = corners(t);
+        bool free = true;
+        for_cells(where, inset, [&](int x, int y) { return free = at(x, y) != chart; });
+        if (free)
+            for_cells(where, inset, [&](int x, int y) {
+                at(x, y) = chart;
+                return true;
+            });
+        return free;
+    }
+
+    void grow(std::uint32_t seed, std::uint32_t chart, std::vector<std::uint32_t>& of) {
+        std::deque<std::uint32_t> waiting{seed};
+        put(seed, chart);
+        of[seed] = chart;
+        while (!waiting.empty()) {
+            const std::uint32_t t = waiting.front();
+            waiting.pop_front();
+            for (std::uint32_t other : neighbours.across[t]) {
+                if (other == no_triangle || !mine(other) || of[other] != none || !put(other, chart)) continue;
+                of[other] = chart;
+                waiting.push_back(other);
+            }
+        }
+    }
+    bool mine(std::uint32_t t) const { return std::binary_search(triangles.begin(), triangles.end(), t); }
+
+    const Mesh& mesh;
+    const Neighbours& neighbours;
+    const std::span<const std::uint32_t> triangles; // ascending
+    const ViewNumber view;
+    const double cell;
+    const glm::dvec3 origin;
+    int x0 = 0, y0 = 0, width = 0, height = 0;
+    std::vector<std::uint32_t> grid;
+};
+
+void find_bounds(const Mesh& mesh, Charts& made) {
+    for (auto& chart : made.charts) {
+        chart.low = glm::dvec2(std::numeric_limits<double>::infinity());
+        chart.high = -chart.low;
+    }
+    for (std::size_t t = 0; t < made.of.size(); ++t) {
+        auto& chart = made.charts[made.of[t]];
+        for (std::uint32_t v : mesh.triangles[t]) {
+            const glm::dvec2 p = in_picture(mesh.positions[v], chart.view);
+            chart.low = glm::dvec2(std::min(chart.low.x, p.x), std::min(chart.low.y, p.y));
+            chart.high = glm::dvec2(std::max(chart.high.x, p.x), std::max(chart.high.y, p.y));
+        }
+    }
+}
+
+} // namespace
+
+Charts make_charts(const Mesh& mesh, const Neighbours& neighbours, const std::vector<ViewNumber>& views,
+                   double cell, const glm::dvec3& origin) {
+    std::uint32_t parts = 0;
+    const auto part = connected_parts(views, neighbours, parts);
+    std::vector<std::uint32_t> start(parts + 1, 0), members(part.size());
+    for (std::uint32_t p : part) ++start[p + 1];
+    for (std::uint32_t p = 0; p < parts; ++p) start[p + 1] += start[p];
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    for (std::uint32_t t = 0; t < part.size(); ++t) members[next[part[t]]++] = t;
+
+    Charts made;
+    made.of.resize(part.size());
+    std::vector<std::uint32_t> first(parts + 1, 0);
+    tbb::parallel_for(std::uint32_t(0), parts, [&](std::uint32_t p) {
+        const std::span<const std::uint32_t> own(members.data() + start[p], start[p + 1] - start[p]);
+        first[p + 1] = Part(mesh, neighbours, views[own[0]], cell, origin, own).split(made.of);
+    });
+    for (std::uint32_t p = 0; p < parts; ++p) first[p + 1] += first[p];
+    made.charts.resize(first[parts]);
+    for (std::uint32_t t = 0; t < part.size(); ++t) {
+        made.of[t] += first[part[t]];
+        made.charts[made.of[t]].view = views[t];
+    }
+    find_bounds(mesh, made);
+    return made;
+}
+
+} // namespace glcast
