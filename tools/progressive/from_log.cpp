@@ -101,7 +101,8 @@ void ProgressiveMesh::collapse_all(std::span<const Collapse> log, std::vector<st
             else
                 triangle[corner] = c.kept, moved.push_back(t);
         });
-        if (triangle_end[split] == 0) refuse("collapse " + std::to_string(k) + " is of no edge");
+        if (triangle_end[split] < 1 || triangle_end[split] > 2)
+            refuse("collapse " + std::to_string(k) + " is of no edge of a two-manifold");
         corners.merge(c.kept, c.removed);
         vertex_split[c.removed] = std::uint32_t(split);
         kept[split] = c.kept, moved_end[split] = std::uint32_t(moved.size() - before);

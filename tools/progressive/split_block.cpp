@@ -180,6 +180,7 @@ class SplitReader {
   private:
     void read_triangles(std::size_t count, const std::vector<std::uint32_t>& ring, std::uint32_t added) {
         split.triangles.clear(), split.triangle_ids.clear();
+        if (count < 1 || count > 2) damaged("a split brings no triangle, or more than two");
         if (mesh.triangles(mesh.level()) + count > totals.triangles)
             damaged("there are more triangles than it says");
         for (; count > 0; --count, ++triangle) {

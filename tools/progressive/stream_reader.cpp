@@ -220,7 +220,8 @@ ProgressiveFile read_progressive(const std::filesystem::path& path) {
         ProgressiveReader reader(in);
         std::size_t blocks = 0;
         while (reader.next()) ++blocks;
-        return {reader.info(), std::move(reader.mesh()), blocks, reader.complete()};
+        const bool complete = reader.complete();
+        return {reader.info(), std::move(reader.mesh()), blocks, complete};
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read progressive mesh '" + path.string() + "': " + e.what());
     }
