@@ -34,6 +34,7 @@ struct Context {
     Mesh truth;         ///< what geometric errors are measured against
     bool known = false; ///< the program's own mesh, not our full surface
     double sample = 0;
+    int n = 0;
     Json rows = Json::array();
 };
 
@@ -44,6 +45,7 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
     const Deviation d = deviation(context.truth, mesh, points);
     const PictureError error = picture_error(mesh, texture, context.views);
     Json row = {{"program", context.options.name},
+                {"n", context.n},
                 {"how", how},
                 {"target", target},
                 {"triangles", mesh.triangles.size()},
@@ -136,6 +138,7 @@ void run(const Options& options) {
     Context context{options, read_references(options.capture), {}, !options.original.empty()};
     const CaptureInfo info = read_capture_info(options.capture);
     context.sample = info.box.size / info.n;
+    context.n = info.n;
     if (context.known) {
         context.truth = original(options.original);
         if (context.truth.colours.empty()) colour_like_the_capture(context.truth, context.views);
