@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "capture/output_file.h"
+#include "tools/mesh/error_names.h"
 
 namespace glcast::cli {
 
@@ -45,6 +46,21 @@ nlohmann::ordered_json to_json(const MeshCheck& c) {
                                    {"closedManifold", c.closed_manifold()}};
     if (c.self_intersections) json["selfIntersections"] = *c.self_intersections;
     return json;
+}
+
+nlohmann::ordered_json to_json(const LevelError& error) {
+    nlohmann::ordered_json json;
+    for (const ErrorName& e : error_names) json[e.name] = error.*e.value;
+    return json;
+}
+
+std::string error_line(const LevelError& error, double sample) {
+    const auto length = [&](double value) {
+        return number(value) + (sample > 0 ? " (" + number(value / sample) + " samples)" : "");
+    };
+    return "mean " + length(error.mean) + ", 99.9 % " + length(error.p999) + ", max " + length(error.max) +
+           "; normals " + number(error.normal_mean_degrees) + " degrees; colours mean " + number(error.colour_mean) +
+           ", 99.9 % " + number(error.colour_p999);
 }
 
 std::string summary(const MeshCheck& check) {

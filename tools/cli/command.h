@@ -50,6 +50,12 @@ void require_writable(const std::filesystem::path& path);
 /// Everything check_mesh counts.
 nlohmann::ordered_json to_json(const MeshCheck& check);
 
+/// The measured errors under their names (tools/mesh/error_names.h).
+nlohmann::ordered_json to_json(const LevelError& error);
+
+/// The same for people: "mean 0.01 (0.2 samples), 99.9 % ..., max ...; normals 2 degrees; colours mean 0.01, 99.9 % 0.1".
+std::string error_line(const LevelError& error, double sample);
+
 /// "1234 triangles, 1851 edges, closed two-manifold"
 std::string summary(const MeshCheck& check);
 

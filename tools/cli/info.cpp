@@ -69,8 +69,9 @@ Json describe_level(const Level& level, const MeshCheck& check) {
     json["bounds"] = {{"lo", vector_json(lo)}, {"hi", vector_json(hi)}};
     json["hasNormals"] = !level.mesh.normals.empty();
     json["hasColours"] = !level.mesh.colours.empty();
-    json["meanError"] = level.error.mean;
-    json["maxError"] = level.error.max;
+    if (!level.texture.empty())
+        json["texture"] = {{"width", level.texture.colour.width}, {"height", level.texture.colour.height}};
+    json.update(to_json(level.error));
     if (level.sample > 0) json["sample"] = level.sample;
     return json;
 }
@@ -120,7 +121,9 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
                 lo[1].get<double>(), lo[2].get<double>(), hi[0].get<double>(), hi[1].get<double>(),
                 hi[2].get<double>());
     if (level.error.max > 0)
-        std::printf("  error to level 0: mean %.6g, max %.6g\n", level.error.mean, level.error.max);
+        std::printf("  error to the full surface: %s\n", error_line(level.error, level.sample).c_str());
+    if (!level.texture.empty())
+        std::printf("  texture %d x %d\n", level.texture.colour.width, level.texture.colour.height);
 }
 
 int info(const Options& options) {

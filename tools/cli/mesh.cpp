@@ -3,11 +3,12 @@
 #include <chrono>
 #include <future>
 #include <memory>
+#include <optional>
 #include <sys/resource.h>
 
 #include "tools/cli/command.h"
 #include "tools/cli/texture.h"
-#include "tools/deviation/deviation.h"
+#include "tools/deviation/level_error.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
 #include "tools/reconstruct/reconstruct.h"
@@ -27,7 +28,8 @@ struct Options {
     double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> edges, triangles, ratio;
     int texture = 0; ///< texels along an edge; 0: none
-    bool check = false, json = false;
+    std::string compress = "none";
+    bool split = false, check = false, json = false;
 };
 
 struct Stopwatch {
@@ -56,13 +58,16 @@ struct Made {
     const Mesh& full() const { return levels[0].mesh; }
 };
 
-bool is_glb(const Options& options) { return std::filesystem::path(options.output).extension() == ".glb"; }
+bool is_glb(const std::filesystem::path& file) { return file.extension() == ".glb"; }
+bool is_glb(const Options& options) { return is_glb(std::filesystem::path(options.output)); }
 
 void check_output(const Options& options) {
     static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
     const std::string extension = std::filesystem::path(options.output).extension();
     if (std::find(std::begin(writable), std::end(writable), extension) == std::end(writable))
         throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
+    if (extension != ".glb" && (options.split || options.compress != "none"))
+        throw std::runtime_error("--compress and --split are for .glb alone: name the output .glb");
     require_writable(options.output);
 }
 
@@ -171,17 +176,28 @@ void bake_textures(const Options& options, Made& made) {
     made.texture_seconds = watch.seconds();
 }
 
-/// Against the full surface, both ways, the larger; hidden parts of the surface count as all others.
-void measure_levels(Made& made) {
+Compression compression(const Options& options) {
+    if (options.compress == "none") return Compression::none;
+    return options.compress == "quantize" ? Compression::quantize : Compression::meshopt;
+}
+
+/// Against the full surface; where the file will hold rounded levels, these, and level 0 too.
+void measure_levels(const Options& options, Made& made) {
     const Progress progress("measuring");
     const Stopwatch watch;
-    DeviationOptions how;
-    how.visible_only = false;
-    for (std::size_t k = 1; k < made.levels.size(); ++k) {
-        Level& level = made.levels[k];
-        const Deviation d = deviation(made.full(), level.mesh, how);
-        level.error.mean = std::max(d.a_to_b.mean, d.b_to_a.mean);
-        level.error.max = std::max(d.a_to_b.max, d.b_to_a.max);
+    made.levels[0].error.unsupported_area_share = made.report.unsupported_area_share;
+    std::optional<Level> exact;
+    if (compression(options) != Compression::none) {
+        exact = made.levels[0];
+        round_levels(made.levels, compression(options));
+        for (std::size_t k = 0; k < made.levels.size(); ++k)
+            made.checks[k] = check_mesh(made.levels[k].mesh, depth(options));
+    }
+    const std::size_t first = exact ? 0 : 1;
+    if (first < made.levels.size()) {
+        const LevelMeter meter(exact ? *exact : made.levels[0]);
+        for (std::size_t k = first; k < made.levels.size(); ++k)
+            made.levels[k].error = meter.measure(made.levels[k]);
     }
     made.measure_seconds = watch.seconds();
 }
@@ -191,7 +207,7 @@ void write(const Options& options, Made& made) {
     const Stopwatch watch;
     if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
     if (made.textures.size() > made.levels.size()) made.textures.erase(made.textures.begin());
-    made.files = write_levels(options.output, made.levels);
+    made.files = write_levels(options.output, made.levels, {compression(options), options.split});
     made.write_seconds = watch.seconds();
 }
 
@@ -199,10 +215,10 @@ Json describe_level(const Made& made, std::size_t k) {
     const Level& level = made.levels[k];
     Json json = to_json(made.checks[k]);
     json["name"] = level.name;
-    json["file"] = made.files[std::min(k, made.files.size() - 1)].string();
-    json["meanError"] = level.error.mean;
-    json["maxError"] = level.error.max;
+    json["file"] = made.files[is_glb(made.files[0]) ? 0 : k].string();
+    json.update(to_json(level.error));
     json["meanErrorSamples"] = level.error.mean / made.sample;
+    json["p999ErrorSamples"] = level.error.p999 / made.sample;
     json["maxErrorSamples"] = level.error.max / made.sample;
     if (!made.textures.empty()) json["texture"] = to_json(made.textures[k]);
     return json;
@@ -248,9 +264,7 @@ void say_made(const Options& options, const Made& made) {
         const Level& level = made.levels[k];
         std::string line = level.name + ": " + summary(made.checks[k]);
         if (level.error.max > 0)
-            line += ", error mean " + number(level.error.mean) + " (" +
-                    number(level.error.mean / made.sample) + " samples), max " + number(level.error.max) +
-                    " (" + number(level.error.max / made.sample) + ")";
+            line += ", error " + error_line(level.error, made.sample);
         say(line);
         if (!made.textures.empty()) say("  " + describe(made.textures[k], options.texture));
     }
@@ -264,7 +278,7 @@ int make_mesh(const Options& options) {
     make_surface(options, made);
     make_levels(options, made);
     bake_textures(options, made);
-    measure_levels(made);
+    measure_levels(options, made);
     write(options, made);
     if (options.json)
         print_made(options, made);
@@ -282,7 +296,7 @@ std::vector<Level> mesh_capture(const std::string& capture) {
     Made made;
     make_surface(options, made);
     make_levels(options, made);
-    measure_levels(made);
+    measure_levels(options, made);
     return std::move(made.levels);
 }
 
@@ -337,6 +351,11 @@ Run declare_mesh(CLI::App& app) {
         if (options->texture && options->method == "cubes")
             throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
     });
+    app.add_option("--compress", options->compress,
+                   ".glb: quantize: 16-bit positions, a third of the size; meshopt: the same, compressed, a tenth")
+        ->check(CLI::IsMember({"none", "quantize", "meshopt"}))
+        ->capture_default_str();
+    app.add_flag("--split", options->split, ".glb: beside it one file a level: OUT.lod0.glb, OUT.lod1.glb, ...");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return make_mesh(*options); };

@@ -1,11 +1,13 @@
 // glcast view: a page to look at a cast with, in any browser.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "capture/output_file.h"
 #include "tools/cli/captured_views.h"
 #include "tools/cli/command.h"
 #include "tools/deviation/deviation.h"
+#include "tools/deviation/level_error.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
 #include "tools/view/page.h"
@@ -66,18 +68,9 @@ std::vector<Level> gather_levels(const std::vector<std::string>& files) {
     return all;
 }
 
-/// Against level 0, both ways, the larger, as `glcast mesh` measures; where the file does not tell.
-void measure(const Mesh& full, PageLevel& level) {
-    if (level.error.max > 0) return;
-    DeviationOptions how;
-    how.visible_only = false;
-    const Deviation d = deviation(full, *level.mesh, how);
-    level.error.mean = std::max(d.a_to_b.mean, d.b_to_a.mean);
-    level.error.max = std::max(d.a_to_b.max, d.b_to_a.max);
-}
-
 std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
     const Progress progress("measuring");
+    std::optional<LevelMeter> meter; // where a file does not tell
     std::vector<PageLevel> described;
     for (const Level& level : levels) {
         PageLevel& one = described.emplace_back();
@@ -90,7 +83,9 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
             one.vertex_distance.assign(level.mesh.positions.size(), 0);
         else {
             one.vertex_distance = distances_to(levels[0].mesh, level.mesh.positions);
-            measure(levels[0].mesh, one);
+            if (level.error.max > 0) continue;
+            if (!meter) meter.emplace(levels[0]);
+            one.error = meter->measure(level);
         }
     }
     return described;

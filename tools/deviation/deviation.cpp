@@ -10,6 +10,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "tools/deviation/area_samples.h"
 #include "tools/deviation/surface_index.h"
 
 namespace glcast {
@@ -157,25 +158,8 @@ double diagonal(const Mesh& mesh) {
 } // namespace
 
 std::vector<SurfacePoint> sample_by_area(const Mesh& mesh, std::size_t samples) {
-    double total = 0;
-    for (const Triangle& t : mesh.triangles) total += glm::length(area_normal(mesh, t));
     std::vector<SurfacePoint> points;
-    if (!(total > 0)) return points;
-    points.reserve(samples);
-    double passed = 0; // area of the triangles before this one
-    for (const Triangle& t : mesh.triangles) {
-        const glm::dvec3 normal = area_normal(mesh, t);
-        passed += glm::length(normal);
-        // Sample k stands at (k+½)/samples of the area; within the triangle by Roberts's R2 sequence, folded.
-        while (points.size() < samples && (double(points.size()) + 0.5) * total < passed * double(samples)) {
-            const double k = double(points.size() + 1);
-            double u = std::fmod(0.5 + k * 0.7548776662466927, 1),
-                   v = std::fmod(0.5 + k * 0.5698402909980532, 1);
-            if (u + v > 1) u = 1 - u, v = 1 - v;
-            const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-            points.push_back({a + u * (b - a) + v * (c - a), unit(normal)});
-        }
-    }
+    for (const AreaSample& s : area_samples(mesh, samples)) points.push_back({s.position, s.normal});
     return points;
 }
 

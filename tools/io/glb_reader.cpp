@@ -2,7 +2,6 @@
 // levels.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -10,77 +9,18 @@
 #include <glm/mat4x4.hpp>
 #include <tiny_gltf.h>
 
-#include "tools/io/mesh_format.h"
+#include "tools/io/glb_accessor.h"
+#include "tools/io/glb_container.h"
+#include "tools/io/glb_extras.h"
+#include "tools/io/glb_textures.h"
+#include "tools/io/meshopt.h"
+#include "tools/io/seams.h"
 
 namespace glcast::format {
 namespace {
 
 using tinygltf::Model;
 using tinygltf::Value;
-
-template <class T> const T& at(const std::vector<T>& items, int index, const char* what) {
-    if (index < 0 || std::size_t(index) >= items.size())
-        refuse(std::string("refers to ") + what + " that is not there");
-    return items[index];
-}
-
-/// An accessor's elements as doubles, every one inside the buffer.
-class Elements {
-  public:
-    Elements(const Model& model, int index) : accessor(at(model.accessors, index, "an accessor")) {
-        if (accessor.sparse.isSparse) refuse("uses sparse accessors, which are not read");
-        const auto& view = at(model.bufferViews, accessor.bufferView, "a buffer view");
-        const auto& data = at(model.buffers, view.buffer, "a buffer").data;
-        size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
-        count_per = tinygltf::GetNumComponentsInType(accessor.type);
-        const int step = accessor.ByteStride(view);
-        if (size < 1 || count_per < 1 || step < size * count_per) refuse("has an accessor of unknown type");
-        stride = step;
-        const std::size_t from = view.byteOffset + accessor.byteOffset;
-        if (view.byteOffset > data.size() || accessor.byteOffset > data.size() || from > data.size() ||
-            accessor.count == 0 || (data.size() - from) / stride + 1 < accessor.count ||
-            from + (accessor.count - 1) * stride + std::size_t(size * count_per) > data.size())
-            refuse("has an accessor beyond its buffer");
-        first = data.data() + from;
-    }
-    std::size_t count() const { return accessor.count; }
-    int components() const { return count_per; }
-
-    double get(std::size_t element, int component) const {
-        const unsigned char* p = first + element * stride + std::size_t(component * size);
-        switch (accessor.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return scaled<std::int8_t>(p, 127);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return scaled<std::uint8_t>(p, 255);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return scaled<std::int16_t>(p, 32767);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return scaled<std::uint16_t>(p, 65535);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return scaled<std::uint32_t>(p, 4294967295.0);
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return scaled<float>(p, 1);
-        default:
-            return 0;
-        }
-    }
-    glm::dvec3 vec3(std::size_t element) const {
-        if (count_per < 3) refuse("has an attribute of fewer than three components");
-        return {get(element, 0), get(element, 1), get(element, 2)};
-    }
-
-  private:
-    template <class T> double scaled(const unsigned char* p, double one) const {
-        T value;
-        std::memcpy(&value, p, sizeof value);
-        return accessor.normalized ? std::max(double(value) / one, -1.0) : double(value);
-    }
-    const tinygltf::Accessor& accessor;
-    const unsigned char* first = nullptr;
-    std::size_t stride = 0;
-    int size = 0, count_per = 0;
-};
 
 glm::dmat4 transform_of(const tinygltf::Node& node) {
     if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
@@ -123,10 +63,13 @@ class GlbReader {
     Level level(const std::vector<int>& nodes) {
         Level level;
         normals = colours = true;
+        TextureReader texture(model);
+        textures = &texture;
         visited.assign(model.nodes.size(), false);
         for (int node : nodes) add_node(level, node, glm::dmat4(1));
         if (!normals) level.mesh.normals.clear();
-        if (!colours) level.mesh.colours.clear();
+        texture.finish(level);
+        if (!colours && level.texture.empty()) level.mesh.colours.clear();
         return level;
     }
 
@@ -142,19 +85,25 @@ class GlbReader {
 
     void add_mesh(Level& level, const tinygltf::Mesh& mesh, const glm::dmat4& m) {
         if (level.name.empty()) level.name = mesh.name;
-        const auto number = [&](const char* name) {
-            return mesh.extras.IsObject() && mesh.extras.Has(name) ? mesh.extras.Get(name).GetNumberAsDouble()
-                                                                   : 0.0;
-        };
-        level.error.mean = std::max(level.error.mean, number("meanError"));
-        level.error.max = std::max(level.error.max, number("maxError"));
-        level.sample = std::max(level.sample, number("sample"));
+        read_extras(mesh.extras, level);
         for (const tinygltf::Primitive& primitive : mesh.primitives) add_primitive(level.mesh, primitive, m);
+        const double seams = number_in(mesh.extras, "seams", -1);
+        if (seams >= 0 && seams < double(model.accessors.size())) join_seams(level.mesh, int(seams));
+    }
+
+    /// Where the file is as we wrote it; vertices of what came before are no originals.
+    void join_seams(Mesh& mesh, int accessor) {
+        const Elements elements(model, accessor);
+        if (elements.count() >= mesh.positions.size()) return;
+        std::vector<std::uint32_t> originals;
+        for (std::size_t k = 0; k < elements.count(); ++k)
+            originals.push_back(std::uint32_t(std::clamp(elements.get(k, 0), 0.0, double(UINT32_MAX))));
+        if (are_copies(mesh, originals)) join_copies(mesh, originals);
     }
 
     void add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive, const glm::dmat4& m) {
         if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return;
-        const std::size_t base = mesh.positions.size();
+        const std::size_t base = mesh.positions.size(), first = mesh.triangles.size();
         const auto accessor = [&](const char* name) {
             const auto found = primitive.attributes.find(name);
             return found == primitive.attributes.end() ? -1 : found->second;
@@ -168,15 +117,16 @@ class GlbReader {
         if (primitive.indices < 0) {
             add_triangles(mesh, primitive.mode, positions.count(),
                           [&](std::size_t k) { return std::uint32_t(base + k); });
-            return;
+        } else {
+            const Elements indices(model, primitive.indices);
+            add_triangles(mesh, primitive.mode, indices.count(), [&](std::size_t k) {
+                const double i = indices.get(k, 0);
+                if (!(i >= 0 && i < double(positions.count())))
+                    refuse("a face refers to a vertex that is not there");
+                return static_cast<std::uint32_t>(base + std::size_t(i));
+            });
         }
-        const Elements indices(model, primitive.indices);
-        add_triangles(mesh, primitive.mode, indices.count(), [&](std::size_t k) {
-            const double i = indices.get(k, 0);
-            if (!(i >= 0 && i < double(positions.count())))
-                refuse("a face refers to a vertex that is not there");
-            return static_cast<std::uint32_t>(base + std::size_t(i));
-        });
+        textures->add(primitive, mesh, base, first, glm::dmat3(m));
     }
 
     void add_normals(Mesh& mesh, int accessor, const glm::dmat4& m) {
@@ -215,19 +165,22 @@ class GlbReader {
 
     const Model& model;
     std::vector<bool> visited;
+    TextureReader* textures = nullptr; ///< of the level that is read
     bool normals = true, colours = true; ///< every primitive of the level has them
 };
 
-/// Textures are not read, so they need not be decoded either.
+/// Pictures are decoded when a level turns out to need them.
 bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
     return true;
 }
 
-Model load(std::string_view bytes) {
-    if (!bytes.starts_with("glTF")) refuse("is no .glb file");
-    std::uint32_t length = 0;
-    if (bytes.size() >= 12) std::memcpy(&length, bytes.data() + 8, 4);
-    if (bytes.size() < 20 || length > bytes.size()) refuse("the file is truncated");
+bool is_compressed(const GlbChunks& chunks) {
+    const auto used = chunks.json.find("extensionsUsed");
+    if (used == chunks.json.end() || !used->is_array()) return false;
+    return std::find(used->begin(), used->end(), meshopt_extension) != used->end();
+}
+
+Model load_plain(std::string_view bytes) {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(no_image, nullptr);
     Model model;
@@ -241,6 +194,11 @@ Model load(std::string_view bytes) {
         if (extension != "KHR_mesh_quantization")
             refuse("needs the extension " + extension + ", which is not read");
     return model;
+}
+
+Model load(std::string_view bytes) {
+    const GlbChunks chunks = glb_chunks(bytes);
+    return is_compressed(chunks) ? load_plain(meshopt_decompressed(chunks)) : load_plain(bytes);
 }
 
 /// The nodes that MSFT_lod puts behind the only node of the scene.

@@ -1,13 +1,20 @@
 // .glb by tinygltf: one buffer; a mesh and a node per level; the scene shows level 0, MSFT_lod names the
 // others.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <optional>
 #include <sstream>
 #include <tiny_gltf.h>
 
+#include "tools/io/glb_extras.h"
 #include "tools/io/mesh_format.h"
+#include "tools/io/meshopt.h"
+#include "tools/io/seams.h"
+#include "tools/picture/png.h"
 
 namespace glcast::format {
 namespace {
@@ -15,45 +22,84 @@ namespace {
 using tinygltf::Value;
 
 constexpr std::size_t largest_glb = 0xffff0000; // its lengths are 32 bits; some room for the JSON
+constexpr int no_target = 0;
+
+/// The pictures of a textured level, as PNG.
+struct Pngs {
+    std::string colour, normal;
+};
+
+/// Most of the time that a textured file takes: on all cores.
+std::vector<Pngs> make_pngs(std::span<const Level> levels) {
+    std::vector<Pngs> pngs(levels.size());
+    tbb::parallel_for(std::size_t(0), levels.size() * 2, [&](std::size_t i) {
+        const Level& level = levels[i / 2];
+        if (level.texture.empty()) return;
+        (i % 2 ? pngs[i / 2].normal : pngs[i / 2].colour) =
+            png_bytes(i % 2 ? level.texture.normal : level.texture.colour);
+    });
+    return pngs;
+}
 
 class GlbBuilder {
   public:
-    GlbBuilder() {
+    /// Positions are floats relative to `origin`, or with a grid whole steps on it, and all else smaller too.
+    GlbBuilder(const glm::dvec3& origin, const std::optional<PositionGrid>& grid, bool reorder)
+        : origin(origin), grid(grid), reorder(reorder) {
         model.asset.version = "2.0";
         model.asset.generator = "glcast " GLCAST_VERSION;
         model.buffers.resize(1);
-        tinygltf::Material material;
-        material.name = "as drawn";
-        material.pbrMetallicRoughness.metallicFactor = 0;
-        material.pbrMetallicRoughness.roughnessFactor = 0.8;
-        model.materials.push_back(material);
+        if (grid) {
+            model.extensionsUsed.push_back("KHR_mesh_quantization");
+            model.extensionsRequired.push_back("KHR_mesh_quantization");
+        }
     }
 
-    void add_level(const Level& level, const glm::dvec3& origin);
+    void add_level(const Level& level, const Pngs& pngs);
     void add_scene(std::span<const Level> levels);
     tinygltf::Model model;
 
   private:
-    template <class T> int add_view(const std::vector<T>& data, int target);
+    int add_view(const void* data, std::size_t bytes, int target, std::size_t stride = 0);
+    template <class T> int add_view(const std::vector<T>& data, int target, std::size_t stride = 0) {
+        return add_view(data.data(), data.size() * sizeof(T), target, stride);
+    }
     int add_accessor(int view, int type, int component, std::size_t count, bool normalized = false);
-    int add_positions(const Mesh& mesh, const glm::dvec3& origin);
-    int add_normals(const Mesh& mesh);
-    int add_colours(const Mesh& mesh);
-    int add_indices(const Mesh& mesh);
+    template <class T>
+    int add_attribute(const std::vector<T>& data, int type, int component, bool normalized = false) {
+        return add_accessor(add_view(data, TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(T)), type, component, data.size(),
+                            normalized);
+    }
+    void add_bounds(int accessor, const glm::dvec3& lo, const glm::dvec3& hi);
+    int add_positions(const Mesh& mesh, const SeamSplit& split);
+    int add_normals(const Mesh& mesh, const SeamSplit& split);
+    int add_colours(const Mesh& mesh, const SeamSplit& split);
+    int add_coordinates(const SeamSplit& split);
+    int add_tangents(const SeamSplit& split);
+    int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices, int target);
+    int add_image(const std::string& png, const std::string& name);
+    int plain_material();
+    int textured_material(const std::string& name, const Pngs& pngs);
+    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split, const Pngs& pngs);
+
+    glm::dvec3 origin;
+    std::optional<PositionGrid> grid;
+    bool reorder;
+    int plain = -1;
 };
 
-template <class T> int GlbBuilder::add_view(const std::vector<T>& data, int target) {
+int GlbBuilder::add_view(const void* data, std::size_t size, int target, std::size_t stride) {
     std::vector<unsigned char>& bytes = model.buffers[0].data;
     bytes.resize((bytes.size() + 3) / 4 * 4);
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = bytes.size();
-    view.byteLength = data.size() * sizeof(T);
+    view.byteLength = size;
+    view.byteStride = stride;
     view.target = target;
-    if (bytes.size() + view.byteLength > largest_glb)
-        refuse("the mesh is too large for .glb (4 GB); write .ply");
-    bytes.resize(bytes.size() + view.byteLength);
-    std::memcpy(bytes.data() + view.byteOffset, data.data(), view.byteLength);
+    if (bytes.size() + size > largest_glb) refuse("the mesh is too large for .glb (4 GB); write .ply");
+    bytes.resize(bytes.size() + size);
+    if (size > 0) std::memcpy(bytes.data() + view.byteOffset, data, size);
     model.bufferViews.push_back(view);
     return static_cast<int>(model.bufferViews.size()) - 1;
 }
@@ -69,74 +115,180 @@ int GlbBuilder::add_accessor(int view, int type, int component, std::size_t coun
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
-int GlbBuilder::add_positions(const Mesh& mesh, const glm::dvec3& origin) {
-    std::vector<glm::vec3> data;
-    data.reserve(mesh.positions.size());
-    for (const glm::dvec3& p : mesh.positions) data.emplace_back(p - origin);
-    glm::vec3 lo = data.at(0), hi = lo;
-    for (const glm::vec3& p : data) lo = glm::min(lo, p), hi = glm::max(hi, p);
-    const int accessor = add_accessor(add_view(data, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_TYPE_VEC3,
-                                      TINYGLTF_COMPONENT_TYPE_FLOAT, data.size());
+void GlbBuilder::add_bounds(int accessor, const glm::dvec3& lo, const glm::dvec3& hi) {
     model.accessors[accessor].minValues = {lo.x, lo.y, lo.z};
     model.accessors[accessor].maxValues = {hi.x, hi.y, hi.z};
+}
+
+int GlbBuilder::add_positions(const Mesh& mesh, const SeamSplit& split) {
+    const std::size_t count = split.vertices(mesh);
+    glm::dvec3 lo(INFINITY), hi(-INFINITY);
+    int accessor;
+    if (grid) {
+        std::vector<std::array<std::uint16_t, 4>> data; // vertices begin on multiples of four bytes
+        data.reserve(count);
+        const std::vector<GridPoint> points = on_grid(mesh, *grid);
+        for (std::size_t v = 0; v < count; ++v) {
+            const GridPoint& p = points[split.original(mesh, v)];
+            data.push_back({p[0], p[1], p[2], 0});
+            lo = glm::min(lo, glm::dvec3(p[0], p[1], p[2])), hi = glm::max(hi, glm::dvec3(p[0], p[1], p[2]));
+        }
+        accessor = add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    } else {
+        std::vector<glm::vec3> data;
+        data.reserve(count);
+        for (std::size_t v = 0; v < count; ++v) {
+            const glm::vec3& p = data.emplace_back(mesh.positions[split.original(mesh, v)] - origin);
+            lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
+        }
+        accessor = add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    }
+    add_bounds(accessor, lo, hi);
     return accessor;
 }
 
-int GlbBuilder::add_normals(const Mesh& mesh) {
-    return add_accessor(add_view(mesh.normals, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_TYPE_VEC3,
-                        TINYGLTF_COMPONENT_TYPE_FLOAT, mesh.normals.size());
+int GlbBuilder::add_normals(const Mesh& mesh, const SeamSplit& split) {
+    const std::size_t count = split.vertices(mesh);
+    if (grid) {
+        std::vector<std::array<std::int8_t, 4>> data;
+        data.reserve(count);
+        for (std::size_t v = 0; v < count; ++v) {
+            const glm::vec3& n = mesh.normals[split.original(mesh, v)];
+            data.push_back({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z), 0});
+        }
+        return add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_BYTE, true);
+    }
+    std::vector<glm::vec3> data;
+    data.reserve(count);
+    for (std::size_t v = 0; v < count; ++v) data.push_back(mesh.normals[split.original(mesh, v)]);
+    return add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
 }
 
 /// COLOR_0 is linear light in glTF, what the program drew is for display; 16 bits keep dark tones apart.
-int GlbBuilder::add_colours(const Mesh& mesh) {
-    std::vector<std::uint16_t> data;
-    data.reserve(mesh.colours.size() * 4);
-    for (const glm::vec3& c : mesh.colours) {
-        for (int k = 0; k < 3; ++k)
-            data.push_back(static_cast<std::uint16_t>(std::lround(to_linear(c[k]) * 65535.0f)));
-        data.push_back(65535);
+int GlbBuilder::add_colours(const Mesh& mesh, const SeamSplit& split) {
+    std::vector<std::array<std::uint16_t, 4>> data;
+    data.reserve(split.vertices(mesh));
+    for (std::size_t v = 0; v < split.vertices(mesh); ++v) {
+        const glm::vec3& c = mesh.colours[split.original(mesh, v)];
+        const auto linear = [&](int k) { return unsigned_short(to_linear(grid ? display_byte(c[k]) : c[k])); };
+        data.push_back({linear(0), linear(1), linear(2), 65535});
     }
-    return add_accessor(add_view(data, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_TYPE_VEC4,
-                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, mesh.colours.size(), true);
+    return add_attribute(data, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
-int GlbBuilder::add_indices(const Mesh& mesh) {
-    const std::size_t count = mesh.triangles.size() * 3;
-    if (mesh.positions.size() > 65535)
-        return add_accessor(add_view(mesh.triangles, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
-                            TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, count);
-    std::vector<std::uint16_t> data;
-    data.reserve(count);
-    for (const Triangle& t : mesh.triangles) data.insert(data.end(), t.begin(), t.end());
-    return add_accessor(add_view(data, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), TINYGLTF_TYPE_SCALAR,
-                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, count);
+int GlbBuilder::add_coordinates(const SeamSplit& split) {
+    if (!grid) return add_attribute(split.coordinates, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    std::vector<std::array<std::uint16_t, 2>> data;
+    data.reserve(split.coordinates.size());
+    for (const glm::vec2& at : split.coordinates) data.push_back({unsigned_short(at.x), unsigned_short(at.y)});
+    return add_attribute(data, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
-void GlbBuilder::add_level(const Level& level, const glm::dvec3& origin) {
+int GlbBuilder::add_tangents(const SeamSplit& split) {
+    if (!grid) return add_attribute(split.tangents, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    std::vector<std::array<std::int8_t, 4>> data;
+    data.reserve(split.tangents.size());
+    for (const glm::vec4& tangent : split.tangents) data.push_back(tangent_bytes(tangent));
+    return add_attribute(data, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_BYTE, true);
+}
+
+int GlbBuilder::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices, int target) {
+    if (vertices > 65535)
+        return add_accessor(add_view(indices, target), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                            indices.size());
+    const std::vector<std::uint16_t> data(indices.begin(), indices.end());
+    return add_accessor(add_view(data, target), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                        indices.size());
+}
+
+int GlbBuilder::add_image(const std::string& png, const std::string& name) {
+    tinygltf::Image image;
+    image.name = name;
+    image.mimeType = "image/png";
+    image.bufferView = add_view(png.data(), png.size(), no_target);
+    model.images.push_back(image);
+    tinygltf::Texture texture;
+    texture.source = static_cast<int>(model.images.size()) - 1;
+    texture.sampler = 0;
+    if (model.samplers.empty()) {
+        tinygltf::Sampler sampler;
+        sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+        sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+        sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        model.samplers.push_back(sampler);
+    }
+    model.textures.push_back(texture);
+    return static_cast<int>(model.textures.size()) - 1;
+}
+
+tinygltf::Material matt(const std::string& name) {
+    tinygltf::Material material;
+    material.name = name;
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.8;
+    return material;
+}
+
+int GlbBuilder::plain_material() {
+    if (plain >= 0) return plain;
+    model.materials.push_back(matt("as drawn"));
+    return plain = static_cast<int>(model.materials.size()) - 1;
+}
+
+int GlbBuilder::textured_material(const std::string& name, const Pngs& pngs) {
+    tinygltf::Material material = matt(name + " as drawn");
+    material.pbrMetallicRoughness.baseColorTexture.index = add_image(pngs.colour, name + " colour");
+    material.normalTexture.index = add_image(pngs.normal, name + " normal");
+    model.materials.push_back(material);
+    return static_cast<int>(model.materials.size()) - 1;
+}
+
+/// A textured one has no COLOR_0: viewers would multiply the texture by it. `mesh`: the level's vertices, in whatever
+/// order the split is.
+tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split,
+                                             const Pngs& pngs) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
-    primitive.attributes["POSITION"] = add_positions(level.mesh, origin);
-    if (!level.mesh.normals.empty()) primitive.attributes["NORMAL"] = add_normals(level.mesh);
-    if (!level.mesh.colours.empty()) primitive.attributes["COLOR_0"] = add_colours(level.mesh);
-    primitive.indices = add_indices(level.mesh);
+    primitive.attributes["POSITION"] = add_positions(mesh, split);
+    if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = add_normals(mesh, split);
+    if (level.texture.empty()) {
+        if (!mesh.colours.empty()) primitive.attributes["COLOR_0"] = add_colours(mesh, split);
+        primitive.material = plain_material();
+    } else {
+        primitive.attributes["TEXCOORD_0"] = add_coordinates(split);
+        primitive.attributes["TANGENT"] = add_tangents(split);
+        primitive.material = textured_material(level.name, pngs);
+    }
+    std::vector<std::uint32_t> indices;
+    indices.reserve(split.triangles.size() * 3);
+    for (const Triangle& t : split.triangles) indices.insert(indices.end(), t.begin(), t.end());
+    primitive.indices = add_indices(indices, split.vertices(mesh), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    return primitive;
+}
+
+void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
+    SeamSplit split = split_along_seams(level);
+    Mesh moved;
+    if (reorder) moved = reorder_for_drawing(level.mesh, split);
     tinygltf::Mesh mesh;
     mesh.name = level.name;
-    mesh.primitives.push_back(primitive);
-    mesh.extras = Value(Value::Object{{"triangles", Value(static_cast<int>(level.mesh.triangles.size()))},
-                                      {"meanError", Value(level.error.mean)},
-                                      {"maxError", Value(level.error.max)},
-                                      {"sample", Value(level.sample)}});
+    mesh.primitives.push_back(primitive_of(level, reorder ? moved : level.mesh, split, pngs));
+    mesh.extras = level_extras(level);
+    if (!split.originals.empty())
+        mesh.extras.Get<Value::Object>()["seams"] =
+            Value(add_indices(split.originals, level.mesh.positions.size(), no_target));
     model.meshes.push_back(mesh);
     tinygltf::Node node;
     node.name = level.name;
     node.mesh = static_cast<int>(model.meshes.size()) - 1;
-    if (origin != glm::dvec3(0)) node.translation = {origin.x, origin.y, origin.z};
+    if (grid) {
+        node.translation = {grid->lo.x, grid->lo.y, grid->lo.z};
+        node.scale = {grid->step, grid->step, grid->step};
+    } else if (origin != glm::dvec3(0))
+        node.translation = {origin.x, origin.y, origin.z};
     model.nodes.push_back(node);
 }
 
-/// A level gives way to the next where that one, drawn so small, has triangles as small on the screen as
-/// level 0's.
 void GlbBuilder::add_scene(std::span<const Level> levels) {
     tinygltf::Scene scene;
     scene.nodes = {0};
@@ -144,13 +296,8 @@ void GlbBuilder::add_scene(std::span<const Level> levels) {
     model.defaultScene = 0;
     if (levels.size() < 2) return;
     Value::Array ids, coverage;
-    for (std::size_t k = 1; k < levels.size(); ++k) {
-        ids.push_back(Value(static_cast<int>(k)));
-        const double share =
-            double(levels[k].mesh.triangles.size()) / double(levels[0].mesh.triangles.size());
-        coverage.push_back(Value(std::sqrt(std::min(share, 1.0))));
-    }
-    coverage.push_back(Value(0.0));
+    for (std::size_t k = 1; k < levels.size(); ++k) ids.push_back(Value(static_cast<int>(k)));
+    for (const double share : screen_coverage(levels)) coverage.push_back(Value(share));
     model.nodes[0].extensions["MSFT_lod"] = Value(Value::Object{{"ids", Value(ids)}});
     model.nodes[0].extras = Value(Value::Object{{"MSFT_screencoverage", Value(coverage)}});
     model.extensionsUsed.push_back("MSFT_lod");
@@ -158,22 +305,26 @@ void GlbBuilder::add_scene(std::span<const Level> levels) {
 
 } // namespace
 
-std::string glb_bytes(std::span<const Level> levels) {
+std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
+    std::optional<PositionGrid> steps;
+    if (compression != Compression::none) steps = grid ? *grid : grid_for(levels);
     // Positions are floats: far from the origin they are kept relative to a whole-numbered point near the
     // mesh.
-    const bool far = needs_doubles(levels[0].mesh);
+    const bool far = !steps && needs_doubles(levels[0].mesh);
     const glm::dvec3 origin = far ? glm::round(centre(levels[0].mesh)) : glm::dvec3(0);
-    GlbBuilder builder;
-    for (const Level& level : levels) builder.add_level(level, origin);
+    GlbBuilder builder(origin, steps, compression == Compression::meshopt);
+    const std::vector<Pngs> pngs = make_pngs(levels);
+    for (std::size_t k = 0; k < levels.size(); ++k) builder.add_level(levels[k], pngs[k]);
     builder.add_scene(levels);
     std::ostringstream stream;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, stream, false, true))
         refuse("tinygltf cannot write it");
-    return std::move(stream).str();
+    std::string bytes = std::move(stream).str();
+    return compression == Compression::meshopt ? meshopt_compressed(bytes) : bytes;
 }
 
-bool write_glb(OutputFile& file, std::span<const Level> levels) {
-    const std::string bytes = glb_bytes(levels);
+bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
+    const std::string bytes = glb_bytes(levels, compression, grid);
     return file.append(bytes.data(), bytes.size());
 }
 

@@ -1,11 +1,15 @@
 // What the mesh formats share: one reader and one writer each, listed in mesh_io.cpp.
 #pragma once
+#include <deque>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "capture/output_file.h"
+#include "tools/io/mesh_io.h"
+#include "tools/io/rounding.h"
 #include "tools/mesh/level.h"
 
 namespace glcast::format {
@@ -18,12 +22,36 @@ std::vector<Level> read_ply(std::string_view bytes);
 std::vector<Level> read_off(std::string_view bytes);
 std::vector<Level> read_stl(std::string_view bytes);
 
+/// The files of a run, which appear together.
+class FileSet {
+  public:
+    OutputFile& mesh(const std::filesystem::path& path) { return open(path, meshes); }
+    OutputFile& companion(const std::filesystem::path& path) { return open(path, companions); }
+    /// All or none. Throws std::runtime_error. The meshes, then what belongs to them.
+    std::vector<std::filesystem::path> commit();
+
+  private:
+    OutputFile& open(const std::filesystem::path& path, std::vector<std::filesystem::path>& list);
+
+    std::deque<OutputFile> files;
+    std::vector<std::filesystem::path> meshes, companions;
+};
+
+/// The pictures of a textured level beside its mesh NAME.EXT: NAME.colour.png, NAME.normal.png. Their file names.
+struct PictureNames {
+    std::string colour, normal;
+};
+bool write_pictures(FileSet& files, const std::filesystem::path& path, const Texture& texture, bool with_normal,
+                    PictureNames& names);
+
 // Writers append to the file; false when it cannot take it (its error() says why).
-std::string glb_bytes(std::span<const Level> levels); ///< the whole file
-bool write_glb(OutputFile& file, std::span<const Level> levels);
-bool write_obj(OutputFile& file, const Mesh& mesh);
-bool write_ply(OutputFile& file, const Mesh& mesh);
-bool write_off(OutputFile& file, const Mesh& mesh);
+/// The whole file. `grid`: of levels that share one with levels in other files; null: their own.
+std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid = nullptr);
+bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
+               const PositionGrid* grid = nullptr);
+bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level);
+bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level);
+bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level);
 
 [[noreturn]] void refuse(const std::string& why);
 

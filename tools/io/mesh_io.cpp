@@ -57,7 +57,8 @@ float to_display(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::
 namespace {
 
 using Reader = std::vector<Level> (*)(std::string_view);
-using Writer = bool (*)(OutputFile&, const Mesh&);
+/// A level to a file of the set, its texture to further ones.
+using Writer = bool (*)(format::FileSet& files, const std::filesystem::path& path, const Level& level);
 
 struct Format {
     const char* extension;
@@ -115,15 +116,22 @@ void tidy(Mesh& mesh) {
         for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
 }
 
-std::filesystem::path level_path(const std::filesystem::path& path, std::size_t level) {
-    if (level == 0) return path;
+std::filesystem::path numbered(const std::filesystem::path& path, std::size_t level) {
     std::filesystem::path name = path.parent_path() / path.stem();
     name += ".lod" + std::to_string(level) + path.extension().string();
     return name;
 }
 
-void require(bool ok, const OutputFile& file) {
-    if (!ok) throw std::runtime_error(file.error());
+std::filesystem::path level_path(const std::filesystem::path& path, std::size_t level) {
+    return level == 0 ? path : numbered(path, level);
+}
+
+/// NAME.lod0.glb, NAME.lod1.glb, ...: level by level, beside all in one.
+void write_split(format::FileSet& files, const std::filesystem::path& path, std::span<const Level> levels,
+                 Compression compression) {
+    const format::PositionGrid grid = format::grid_for(levels);
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        format::write_glb(files.companion(numbered(path, k)), levels.subspan(k, 1), compression, &grid);
 }
 
 } // namespace
@@ -141,26 +149,30 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
 
 Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels(path).front().mesh); }
 
-std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}).size(); }
+std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }
 
-std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
-                                                std::span<const Level> levels) {
+void round_levels(std::span<Level> levels, Compression compression) {
+    if (compression == Compression::none || levels.empty()) return;
+    const format::PositionGrid grid = format::grid_for(levels);
+    for (Level& level : levels) format::round_level(level, grid);
+}
+
+std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
+                                                const WriteOptions& options) {
     const Format& f = format_of(path);
     if (!f.write && !f.many_levels)
         format::refuse("cannot write '" + path.string() + "': " + f.extension +
                        " is read only; take .glb, .obj, .ply or .off");
+    if (!f.many_levels && (options.split || options.compression != Compression::none))
+        format::refuse("only .glb is compressed or split");
     if (levels.empty()) throw std::logic_error("no levels to write");
-    std::vector<std::filesystem::path> names;
-    std::deque<OutputFile> files; // all are written before the first appears
-    const std::size_t count = f.many_levels ? 1 : levels.size();
-    for (std::size_t k = 0; k < count; ++k) {
-        OutputFile& file = files.emplace_back(names.emplace_back(level_path(path, k)).string());
-        require(f.many_levels ? format::write_glb(file, levels) : f.write(file, levels[k].mesh), file);
-    }
-    std::vector<OutputFile*> all;
-    for (OutputFile& file : files) all.push_back(&file);
-    if (const OutputFile* failed = OutputFile::commit_all(all)) require(false, *failed);
-    return names;
+    format::FileSet files; // all are written before the first appears
+    if (f.many_levels) {
+        format::write_glb(files.mesh(path), levels, options.compression);
+        if (options.split) write_split(files, path, levels, options.compression);
+    } else
+        for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k]);
+    return files.commit();
 }
 
 } // namespace glcast

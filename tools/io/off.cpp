@@ -84,8 +84,9 @@ std::vector<Level> read_off(std::string_view bytes) {
     return one_level(std::move(reader.mesh));
 }
 
-bool write_off(OutputFile& file, const Mesh& mesh) {
-    Gather out(file);
+bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level) {
+    const Mesh& mesh = level.mesh;
+    Gather out(files.mesh(path));
     const bool colours = !mesh.colours.empty();
     out << (colours ? "COFF\n" : "OFF\n"); // no comment line: OpenMesh takes one for the counts
     out << mesh.positions.size() << ' ' << mesh.triangles.size() << " 0\n";

@@ -228,17 +228,24 @@ std::vector<Level> read_ply(std::string_view bytes) {
     return one_level(std::move(mesh));
 }
 
-bool write_ply(OutputFile& file, const Mesh& mesh) {
-    Gather out(file);
+/// Texture coordinates belong to corners, as MeshLab writes them: the mesh stays as it is.
+bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level) {
+    const Mesh& mesh = level.mesh;
+    const bool textured = !level.texture.empty();
+    PictureNames names;
+    Gather out(files.mesh(path));
+    if (textured && !write_pictures(files, path, level.texture, false, names)) return false;
     const bool wide = needs_doubles(mesh), normals = !mesh.normals.empty(), colours = !mesh.colours.empty();
     out << "ply\nformat binary_little_endian 1.0\ncomment glcast " GLCAST_VERSION "\n";
+    if (textured) out << "comment TextureFile " << names.colour << '\n';
     out << "element vertex " << mesh.positions.size() << '\n';
     for (const char* name : {"x", "y", "z"})
         out << (wide ? "property double " : "property float ") << name << '\n';
     if (normals) out << "property float nx\nproperty float ny\nproperty float nz\n";
     if (colours) out << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    out << "element face " << mesh.triangles.size()
-        << "\nproperty list uchar int vertex_indices\nend_header\n";
+    out << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\n";
+    if (textured) out << "property list uchar float texcoord\n";
+    out << "end_header\n";
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (wide)
             out.bytes(mesh.positions[v]);
@@ -248,7 +255,12 @@ bool write_ply(OutputFile& file, const Mesh& mesh) {
         for (int k = 0; k < 3 && colours; ++k)
             out << static_cast<char>(std::lround(mesh.colours[v][k] * 255.0f));
     }
-    for (const Triangle& t : mesh.triangles) out << '\3', out.bytes(t);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        out << '\3', out.bytes(mesh.triangles[t]);
+        if (!textured) continue;
+        out << '\6';
+        for (const glm::vec2& at : level.texture.coordinates[t]) out.bytes(glm::vec2(at.x, 1 - at.y));
+    }
     return out.flush();
 }
 

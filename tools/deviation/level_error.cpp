@@ -1,0 +1,166 @@
+#include "tools/deviation/level_error.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "tools/deviation/area_samples.h"
+#include "tools/deviation/shown.h"
+#include "tools/deviation/surface_index.h"
+#include "tools/mesh/point_triangle.h"
+
+namespace glcast {
+namespace {
+
+constexpr std::size_t points_a_side = 200'000;
+constexpr std::size_t piece = 2048; ///< points that follow one another: neighbours, mostly
+
+struct Probe {
+    AreaSample at;
+    Shown shown;
+};
+
+std::vector<Probe> probes(const Level& level) {
+    std::vector<Probe> all;
+    for (const AreaSample& s : area_samples(level.mesh, points_a_side)) all.push_back({s, {}});
+    tbb::parallel_for(std::size_t(0), all.size(),
+                      [&](std::size_t i) { all[i].shown = shown(level, all[i].at.triangle, all[i].at.weights); });
+    return all;
+}
+
+struct Differences {
+    float distance = 0, degrees = 0, colour = 0;
+};
+
+float degrees_between(const glm::vec3& a, const glm::vec3& b) {
+    return std::atan2(glm::length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi_v<float>;
+}
+
+/// What the level shows nearest to a point, in a triangle.
+Shown shown_near(const Level& level, const glm::dvec3& point, std::uint32_t triangle) {
+    const Triangle& t = level.mesh.triangles[triangle];
+    const auto& p = level.mesh.positions;
+    return shown(level, triangle, nearest_in_triangle(point, p[t[0]], p[t[1]], p[t[2]]).weights);
+}
+
+Differences differences(const Probe& probe, const Level& other, const SurfaceIndex& index, std::uint32_t& near) {
+    const AreaSample& at = probe.at;
+    const SurfaceIndex::Nearest nearest = index.nearest(at.position, near);
+    near = nearest.triangle;
+    const std::uint32_t facing = index.nearest_facing(at.position, at.normal, nearest).triangle;
+    const Shown there = shown_near(other, at.position, facing);
+    Differences d{float(nearest.distance), degrees_between(probe.shown.normal, there.normal), 0};
+    for (int k = 0; k < 3; ++k) d.colour = std::max(d.colour, std::abs(probe.shown.colour[k] - there.colour[k]));
+    return d;
+}
+
+std::vector<Differences> differences(const std::vector<Probe>& from, const Level& to, const SurfaceIndex& index) {
+    std::vector<Differences> all(from.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), piece), [&](const auto& range) {
+        std::uint32_t near = index.nearest(from[range.begin()].at.position).triangle;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) all[i] = differences(from[i], to, index, near);
+    });
+    return all;
+}
+
+/// The triangles that were nearest to the last few points.
+class Recent {
+  public:
+    explicit Recent(std::uint32_t first) { triangles.fill(first); }
+    void add(std::uint32_t triangle) { triangles[next++ % triangles.size()] = triangle; }
+    SurfaceIndex::Nearest nearest(const SurfaceIndex& index, const glm::dvec3& point, double good_enough) const {
+        SurfaceIndex::Nearest best{INFINITY, triangles[0]};
+        for (std::size_t k = 0; k < triangles.size(); ++k) {
+            const std::uint32_t t = triangles[(next - 1 - k) % triangles.size()];
+            if (const double d = index.distance(point, t); d < best.distance) best = {d, t};
+            if (best.distance <= good_enough) break;
+        }
+        return best;
+    }
+
+  private:
+    std::array<std::uint32_t, 4> triangles;
+    std::size_t next = triangles.size();
+};
+
+/// The largest distance of a vertex from the surface, or `least` where that is larger. A vertex near a triangle of
+/// one before it cannot be the farthest, and is not searched for: most are.
+double farthest(const std::vector<glm::dvec3>& vertices, const SurfaceIndex& index, double least) {
+    std::atomic<double> largest = least;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), piece), [&](const auto& range) {
+        Recent recent(index.nearest(vertices[range.begin()]).triangle);
+        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+            double known = largest.load(std::memory_order_relaxed);
+            const SurfaceIndex::Nearest bound = recent.nearest(index, vertices[v], known);
+            if (bound.distance <= known) continue;
+            const SurfaceIndex::Nearest found = index.nearest(vertices[v], bound.triangle);
+            recent.add(found.triangle);
+            while (found.distance > known && !largest.compare_exchange_weak(known, found.distance)) {}
+        }
+    });
+    return largest;
+}
+
+double mean(const std::vector<Differences>& all, float Differences::*what) {
+    double sum = 0;
+    for (const Differences& d : all) sum += d.*what;
+    return all.empty() ? 0 : sum / double(all.size());
+}
+
+double all_but_a_thousandth(const std::vector<Differences>& all, float Differences::*what) {
+    if (all.empty()) return 0;
+    std::vector<float> values;
+    for (const Differences& d : all) values.push_back(d.*what);
+    const auto rank = std::ptrdiff_t(std::ceil(0.999 * double(values.size()))) - 1;
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[std::size_t(rank)];
+}
+
+double largest(const std::vector<Differences>& all) {
+    float most = 0;
+    for (const Differences& d : all) most = std::max(most, d.distance);
+    return most;
+}
+
+} // namespace
+
+struct LevelMeter::Impl {
+    explicit Impl(const Level& full) : full(full), index(full.mesh, SurfaceIndex::Tree::quick), on_full(probes(full)) {}
+
+    LevelError measure(const Level& level) const {
+        const SurfaceIndex level_index(level.mesh);
+        const auto there = differences(on_full, level, level_index), back = differences(probes(level), full, index);
+        const auto larger = [&](double (*of)(const std::vector<Differences>&, float Differences::*),
+                                float Differences::*what) { return std::max(of(there, what), of(back, what)); };
+        LevelError error;
+        error.mean = larger(mean, &Differences::distance);
+        error.p999 = larger(all_but_a_thousandth, &Differences::distance);
+        error.max = farthest(full.mesh.positions, level_index, std::max(largest(there), largest(back)));
+        error.max = farthest(level.mesh.positions, index, error.max);
+        error.normal_mean_degrees = larger(mean, &Differences::degrees);
+        if (has_colours(full) && has_colours(level)) {
+            error.colour_mean = larger(mean, &Differences::colour);
+            error.colour_p999 = larger(all_but_a_thousandth, &Differences::colour);
+        }
+        error.unsupported_area_share = full.error.unsupported_area_share;
+        return error;
+    }
+
+    const Level& full;
+    SurfaceIndex index;
+    std::vector<Probe> on_full;
+};
+
+LevelMeter::LevelMeter(const Level& full) : impl(std::make_unique<Impl>(full)) {}
+LevelMeter::~LevelMeter() = default;
+LevelError LevelMeter::measure(const Level& level) const { return impl->measure(level); }
+
+LevelError measure_level(const Level& full, const Level& level) { return LevelMeter(full).measure(level); }
+
+} // namespace glcast
