@@ -24,10 +24,16 @@ const Road roads[] = {
     {"egl_getproc", {FIXTURE_EGL, "--loader", "getproc"}},
     {"egl_dlopen", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen"}},
     {"egl_dlopen_deepbind", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen-deepbind"}},
+    {"glx_split", {FIXTURE_GLX_SPLIT, "--loader", "dlopen"}},
+    {"glx_split_deepbind", {FIXTURE_GLX_SPLIT, "--loader", "dlopen-deepbind"}},
+    {"egl_split", {FIXTURE_EGL_SPLIT, "--loader", "dlopen"}},
+    {"egl_split_deepbind", {FIXTURE_EGL_SPLIT, "--loader", "dlopen-deepbind"}},
     {"second_thread", {FIXTURE_GLX, "--thread"}},
     {"egl_second_thread", {FIXTURE_EGL, "--thread"}},
     {"egl_two_windows", {FIXTURE_EGL, "--windows", "2"}},
     {"dlopen_in_second_thread", {FIXTURE_GLX_DLOPEN, "--loader", "dlopen", "--thread"}},
+    {"egl_dlopen_in_second_thread", {FIXTURE_EGL_DLOPEN, "--loader", "dlopen", "--thread"}},
+    {"deepbind_in_second_thread", {FIXTURE_GLX_DLOPEN, "--thread", "--loader", "dlopen-deepbind"}},
     {"two_windows", {FIXTURE_GLX, "--windows", "2"}},
     {"single_buffered", {FIXTURE_GLX, "--single-buffered"}},
 };
@@ -99,6 +105,14 @@ TEST_P(Process, child_of_a_launcher_is_cast) {
     const auto result = cast({"sh", "-c", fixture + " --shape cube --frames 1; exit 5"});
     EXPECT_TRUE(result.capture) << result.outcome.err;
     EXPECT_EQ(result.outcome.exit_code, 5);
+}
+
+/// The program has drawn before it becomes another, in the same process.
+TEST_P(Process, what_a_program_becomes_is_cast) {
+    const auto result = cast({GetParam().forks, "become"});
+    EXPECT_TRUE(result.capture) << result.outcome.err;
+    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
+    EXPECT_EQ(captures(result.outcome), 1);
 }
 
 TEST_P(Process, forked_child_leaves_the_capture_alone) {

@@ -74,6 +74,22 @@ TEST(Robustness, no_memory_left) {
     EXPECT_TRUE(says(run.outcome, "a frame cannot be recorded: out of memory")) << run.outcome.err;
 }
 
+/// The recording is small, its images are not.
+TEST(Robustness, no_memory_left_for_the_capture) {
+    if (sanitized) GTEST_SKIP() << "the sanitizer needs the address space";
+    const Hardship run = run_hardship("narrow", {{"GLCAST_N", "2048"}});
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_TRUE(says(run.outcome, "nothing captured: ")) << run.outcome.err;
+    EXPECT_FALSE(run.capture);
+}
+
+/// In the middle of captures, whose writer has a thread of its own.
+TEST(Robustness, children_are_forked_while_frames_are_cast) {
+    const Hardship run = run_hardship("forks", {{"GLCAST_EVERY", "1"}, {"GLCAST_N", "64"}});
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_TRUE(run.capture) << run.outcome.err;
+}
+
 TEST(Robustness, threads_draw_while_frames_are_cast) {
     const Hardship run = run_hardship("threads", {{"GLCAST_EVERY", "1"}});
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;

@@ -1,4 +1,5 @@
-// Forks between two frames; the child ends as programs do, through exit().
+// Forks between two frames; the child ends as programs do, through exit(). forks become: becomes this program
+// again after its first frame.
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,4 +14,11 @@ static void fork_once(int frame) {
     waitpid(child, &status, 0);
 }
 
-int main(void) { return draw_cubes(3, fork_once); }
+static void become(int frame) {
+    if (frame == 2) execl("/proc/self/exe", "forks", (char*)0), _exit(9);
+}
+
+int main(int argc, char** argv) {
+    (void)argv;
+    return draw_cubes(3, argc > 1 ? become : fork_once);
+}
