@@ -158,16 +158,13 @@ constexpr Variable variables[] = {
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
-<<<<<<< HEAD
     {"GLCAST_REFERENCE_VIEWS", "a whole number from 1 to 36, and no GLCAST_BOX with it",
      [](const std::string& t, Options& o) {
          return parse_number(t, o.reference_views) && o.reference_views >= 1 &&
                 o.reference_views <= max_reference_views && !o.box;
      }},
-=======
     {"GLCAST_WINDOW", "a window's number, its id with 0x, or a part of its title",
      [](const std::string& t, Options& o) { return !(o.window = t).empty(); }},
->>>>>>> 3cc28d0 (Of several windows the one that shows most is cast, or the one that --window names)
     {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
     {"GLCAST_MEMORY", "MiB, a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},
