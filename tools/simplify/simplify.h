@@ -21,7 +21,7 @@ struct SimplifyOptions {
     bool refit = true;
     /// How far a surface may as well be off as have a colour (channel, 0..1) or a normal (component) that is
     /// off by 1: shares of the longest side of the mesh's box. 0: not looked at.
-    double colour_weight = 0.005, normal_weight = 0.0005;
+    double colour_weight = 0.001, normal_weight = 0.0002;
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
