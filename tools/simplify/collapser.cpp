@@ -13,7 +13,7 @@ constexpr std::size_t triangles_per_tile = 12'000;
 // else is asked for.
 constexpr std::size_t one_patch = 250'000;
 // From round to round. The cost of a collapse grows with the third power of what one triangle stands for.
-constexpr float price_grows = 16;
+constexpr float price_grows = 4;
 constexpr double least_progress = 0.9; // of the triangles left by a round; else the price must rise faster
 constexpr float price_leaps = 1000;
 constexpr int most_idle_rounds = 3;
