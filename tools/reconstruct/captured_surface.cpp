@@ -12,6 +12,7 @@ namespace glcast {
 namespace {
 
 constexpr int steps = 6;            // of the walk to where a line meets the surface; it mostly needs two
+constexpr int outline = 3;          // samples: how far a coarse level may reach beyond what a view covers
 constexpr double arrived = 0.02;    // samples
 constexpr float steepest = 0.25f;   // cosine: views that see a surface flatter than this are not asked
 constexpr float same_way = 0.2f;    // cosine between the asked and the found facing
@@ -32,12 +33,14 @@ class Walk {
         : rays(rays), hits(rays.axis[axis]), axis(axis), side(facing[axis] > 0 ? 1 : 0),
           axes(image_axes(Axis(axis))), facing(facing) {}
 
-    /// From `from` along the line; where it leads off the surface, the last plane under way.
-    std::optional<Plane> run(const glm::dvec3& from, const glm::vec3& along, double reach) const {
+    /// From `from` along the line; where it leads off the surface, the last plane under way. `beside`: the
+    /// first pixel may be so many beside the point.
+    std::optional<Plane> run(const glm::dvec3& from, const glm::vec3& along, double reach, int beside) const {
         glm::dvec3 at = from;
         std::optional<Plane> found;
         for (int step = 0; step < steps; ++step) {
-            const auto next = nearest(at, from[axis], reach);
+            auto next = nearest(at, from[axis], reach);
+            if (!next && step == 0) next = nearest_beside(at, reach, beside);
             if (!next) break;
             found = next;
             const double slope = glm::dot(next->normal, along);
@@ -80,6 +83,23 @@ class Walk {
         return best;
     }
 
+    /// The same in the pixel nearest to the point that has one.
+    std::optional<Plane> nearest_beside(const glm::dvec3& at, double reach, int beside) const {
+        std::optional<Plane> best;
+        double least = (beside + 0.5) * (beside + 0.5);
+        for (int dv = -beside; dv <= beside; ++dv)
+            for (int du = -beside; du <= beside; ++du) {
+                glm::dvec3 there = at;
+                there[axes.u] = std::round(at[axes.u]) + du;
+                there[axes.v] = std::round(at[axes.v]) + dv;
+                const double away_u = there[axes.u] - at[axes.u], away_v = there[axes.v] - at[axes.v],
+                             away = away_u * away_u + away_v * away_v;
+                if (away >= least) continue;
+                if (const auto found = nearest(there, at[axis], reach)) best = found, least = away;
+            }
+        return best;
+    }
+
     /// The point of the plane in the pixel of its hit that lies nearest to `at` along the rays.
     glm::dvec3 on_plane(const Plane& plane, glm::dvec3 at) const {
         for (int k : {axes.u, axes.v}) at[k] = std::clamp(at[k], plane.at[k] - 0.5, plane.at[k] + 0.5);
@@ -110,6 +130,21 @@ glm::dvec3 CapturedSurface::to_samples(const glm::dvec3& position) const {
     return (position - box.lo) / sample() - 0.5;
 }
 
+CapturedPoint CapturedSurface::seen_at(int axis, const glm::dvec3& at, const glm::vec3& plane,
+                                       std::uint32_t hit) const {
+    CapturedPoint out;
+    out.found = true;
+    out.position = box.lo + (at + 0.5) * sample();
+    const Attribute seen = sample_point(*rays, at, plane);
+    const AxisHits& hits = rays->axis[axis];
+    out.colour = seen.found ? seen.colour : unpack_colour(hits.colour[hit]);
+    out.normal = seen.found ? seen.plane : plane;
+    if (geometric_normals) return out;
+    if (seen.found ? seen.normal != glm::vec3(0) : hits.normal[hit] != 0)
+        out.normal = seen.found ? seen.normal : unpack_normal(hits.normal[hit]);
+    return out;
+}
+
 CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                                     double reach) const {
     if (!rays) return {};
@@ -119,22 +154,12 @@ CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& alo
         return fa != fb ? fa > fb : a < b;
     });
     const glm::dvec3 start = to_samples(from);
-    for (int axis : order) {
-        if (std::abs(facing[axis]) < steepest) break;
-        const auto plane = Walk(*rays, axis, facing).run(start, along, reach);
-        if (!plane) continue;
-        CapturedPoint out;
-        out.found = true;
-        out.position = box.lo + (plane->at + 0.5) * sample();
-        const Attribute seen = sample_point(*rays, plane->at, plane->normal);
-        const AxisHits& hits = rays->axis[axis];
-        out.colour = seen.found ? seen.colour : unpack_colour(hits.colour[plane->hit]);
-        out.normal = seen.found ? seen.plane : plane->normal;
-        if (geometric_normals) return out;
-        if (seen.found ? seen.normal != glm::vec3(0) : hits.normal[plane->hit] != 0)
-            out.normal = seen.found ? seen.normal : unpack_normal(hits.normal[plane->hit]);
-        return out;
-    }
+    for (int beside : {0, outline})
+        for (int axis : order) {
+            if (std::abs(facing[axis]) < steepest) break;
+            if (const auto plane = Walk(*rays, axis, facing).run(start, along, reach, beside))
+                return seen_at(axis, plane->at, plane->normal, plane->hit);
+        }
     return {};
 }
 

@@ -1,5 +1,6 @@
 // What the captured images show of a surface, for those who look at it after the mesh is made.
 #pragma once
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 
@@ -41,6 +42,7 @@ class CapturedSurface {
                        double reach) const;
 
   private:
+    CapturedPoint seen_at(int axis, const glm::dvec3& at, const glm::vec3& plane, std::uint32_t hit) const;
     std::shared_ptr<const Rays> rays;
     Box box;
     bool geometric_normals = false;

@@ -21,6 +21,9 @@ namespace glcast {
 namespace {
 
 constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
+constexpr double least_reach = 1.5; // samples
+constexpr double most_triangles = 0.95;
+constexpr std::size_t most_probes = 20000;
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
 struct Layout {
@@ -64,15 +67,44 @@ void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
         picture.rgb[3 * texel + c] = std::uint8_t(std::lround(std::clamp(value[c], 0.0f, 1.0f) * 255));
 }
 
+/// How far, in samples, to look for the surface from a level: what most of its triangles need, and as much
+/// again. Farther off are other parts of the scene.
+double needed_reach(const Mesh& mesh, const CapturedSurface& captured,
+                    const std::vector<glm::vec3>& normals) {
+    const std::size_t step = 1 + mesh.triangles.size() / most_probes;
+    std::vector<double> far((mesh.triangles.size() + step - 1) / step, -1);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, far.size(), 64), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const std::size_t t = i * step;
+            if (normals[t] == glm::vec3(0)) continue;
+            const Triangle& v = mesh.triangles[t];
+            const glm::dvec3 middle =
+                (mesh.positions[v[0]] + mesh.positions[v[1]] + mesh.positions[v[2]]) / 3.0;
+            const CapturedPoint seen =
+                captured.find(middle, normals[t], normals[t], captured.default_reach());
+            if (seen.found) far[i] = glm::distance(seen.position, middle) / captured.sample();
+        }
+    });
+    std::erase(far, -1);
+    if (far.empty()) return least_reach;
+    const auto most = far.begin() + std::ptrdiff_t(most_triangles * double(far.size() - 1));
+    std::nth_element(far.begin(), most, far.end());
+    return std::clamp(2 * *most, least_reach, captured.default_reach());
+}
+
 class Baker {
   public:
-    Baker(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout, Texture& texture)
-        : mesh(mesh), captured(captured), layout(layout), texture(texture), reach(captured.default_reach()) {}
+    Baker(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout, double reach,
+          Texture& texture)
+        : mesh(mesh), captured(captured), layout(layout), texture(texture), reach(reach) {}
 
-    /// Returns whether a ray saw the point of the surface.
-    bool bake(int x, int y, std::uint32_t t) {
+    struct Done {
+        bool covered, seen; ///< the texel's centre is on the triangle; a ray saw the surface there
+    };
+    Done bake(int x, int y, std::uint32_t t) {
         const Triangle& v = mesh.triangles[t];
-        const glm::dvec3 w = weights(x, y, t);
+        const TrianglePoint nearest = in_triangle(x, y, t);
+        const glm::dvec3& w = nearest.weights;
         const glm::vec3 weight(w);
         const glm::dvec3 point =
             w.x * mesh.positions[v[0]] + w.y * mesh.positions[v[1]] + w.z * mesh.positions[v[2]];
@@ -92,16 +124,15 @@ class Baker {
         put(texture.colour, texel, colour);
         put(texture.normal, texel,
             0.5f + 0.5f * (seen.found ? encoded(t, v, mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
-        return seen.found;
+        return {std::abs(nearest.point.x - x - 0.5) + std::abs(nearest.point.y - y - 0.5) < 1e-6, seen.found};
     }
 
   private:
-    /// Of the texel's centre, or of the nearest point of the triangle.
-    glm::dvec3 weights(int x, int y, std::uint32_t t) const {
+    /// The texel's centre, or the nearest point of the triangle.
+    TrianglePoint in_triangle(int x, int y, std::uint32_t t) const {
         const auto c = in_atlas(mesh, layout.charts, layout.atlas, t);
         return nearest_in_triangle({x + 0.5, y + 0.5, 0}, {c[0].x, c[0].y, 0}, {c[1].x, c[1].y, 0},
-                                   {c[2].x, c[2].y, 0})
-            .weights;
+                                   {c[2].x, c[2].y, 0});
     }
 
     template <class Mix>
@@ -145,16 +176,18 @@ void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout
     texture.colour = blank(size);
     texture.normal = blank(size);
     std::vector<std::uint8_t> known(owners.size());
+    const double reach = needed_reach(mesh, captured, layout.triangle_normals);
     std::atomic<std::size_t> texels = 0, unseen = 0;
     tbb::parallel_for(0, size, [&](int y) {
-        Baker baker(mesh, captured, layout, texture);
+        Baker baker(mesh, captured, layout, reach, texture);
         std::size_t mine = 0, missed = 0;
         for (int x = 0; x < size; ++x) {
             const std::uint32_t owner = owners[std::size_t(y) * size + x];
             if (owner == no_triangle) continue;
             known[std::size_t(y) * size + x] = 1;
-            ++mine;
-            missed += !baker.bake(x, y, owner);
+            const Baker::Done done = baker.bake(x, y, owner);
+            mine += done.covered;
+            missed += done.covered && !done.seen;
         }
         texels += mine;
         unseen += missed;

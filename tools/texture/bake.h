@@ -21,7 +21,7 @@ struct TextureReport {
     std::size_t charts = 0;
     int gutter = 0;                ///< texels between charts
     double texels_per_sample = 0;  ///< along an axis; 1 at most: a texel a pixel of the capture
-    std::size_t texels = 0;        ///< that show the surface or the gutter beside it
+    std::size_t texels = 0;        ///< that show the surface; the gutters are not counted
     std::size_t texels_unseen = 0; ///< of these, where no ray saw the surface: colours of the vertices
     std::size_t texels_twice = 0;  ///< that two parts of one chart cover, thinner than a sample
 };
