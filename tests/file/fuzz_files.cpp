@@ -2,12 +2,14 @@
 // file's size explains. Fixed seeds, so that a failure comes again.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 #include <sys/resource.h>
 
 #include "tests/file/file_tools.h"
 #include "tests/file/sample_meshes.h"
 #include "tests/file/sphere_capture.h"
+#include "tests/file/textured_torus.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
 
@@ -73,18 +75,97 @@ TEST(Fuzz, FlippedBytesInACapture) {
     EXPECT_GT(refused, 250) << "most damage shows";
 }
 
-class FuzzMesh : public testing::TestWithParam<const char*> {};
+struct Kind {
+    const char *name, *extension;
+    bool textured;
+    Compression compression;
+};
+
+class FuzzMesh : public testing::TestWithParam<Kind> {
+  protected:
+    /// The file of two levels, as bytes.
+    std::string whole_file() const {
+        const auto [name, extension, textured, compression] = GetParam();
+        std::vector levels{textured ? textured_torus(12, 9, 16) : Level{torus(12, 9), "level 0"},
+                           textured ? textured_torus(6, 5, 16, "level 1") : Level{torus(6, 5), "level 1"}};
+        const auto path = folder / (std::string("whole") + extension);
+        write_levels(path, levels, {.compression = compression});
+        return read_text(path);
+    }
+    std::string damaged_name() const { return std::string("damaged") + GetParam().extension; }
+    Folder folder;
+};
 
 TEST_P(FuzzMesh, FlippedBytes) {
-    const Folder folder;
-    const std::string extension = GetParam();
-    const std::vector levels{Level{torus(12, 9), "level 0"}, Level{torus(6, 5), "level 1"}};
-    write_levels(folder / ("whole" + extension), levels);
-    const std::string whole = read_text(folder / ("whole" + extension));
+    const std::string whole = whole_file();
     const MemoryLimit limit;
-    refusals(folder, whole, ("damaged" + extension).c_str(), 300,
-             [](const auto& path) { read_levels(path); });
+    refusals(folder, whole, damaged_name().c_str(), 300, [](const auto& path) { read_levels(path); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, FuzzMesh, testing::Values(".glb", ".obj", ".ply", ".off"),
-                         [](const auto& info) { return std::string(info.param + 1); });
+/// Cut off anywhere, with lengths that say so: what tells is inside, not the size of the file.
+TEST_P(FuzzMesh, CutOffWithTheLengthsToIt) {
+    const std::string whole = whole_file();
+    if (!whole.starts_with("glTF")) GTEST_SKIP() << "has no lengths";
+    const MemoryLimit limit;
+    const auto word = [](const std::string& file, std::size_t at) {
+        std::uint32_t value;
+        std::memcpy(&value, file.data() + at, 4);
+        return value;
+    };
+    const std::size_t bytes = 20 + word(whole, 12); // where the second chunk begins
+    int refused = 0, tried = 0;
+    for (std::size_t length = bytes + 8; length < whole.size(); length += 4 * (1 + whole.size() / 1000), ++tried) {
+        std::string cut = whole.substr(0, length);
+        const std::uint32_t all = std::uint32_t(length), rest = std::uint32_t(length - bytes - 8);
+        std::memcpy(cut.data() + 8, &all, 4);
+        std::memcpy(cut.data() + bytes, &rest, 4);
+        write_text(folder / damaged_name(), cut);
+        try {
+            read_levels(folder / damaged_name());
+        } catch (const std::runtime_error& e) {
+            ++refused;
+            EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+        }
+    }
+    EXPECT_EQ(refused, tried);
+}
+
+/// Numbers of the description become hostile ones.
+TEST_P(FuzzMesh, HostileNumbers) {
+    const std::string whole = whole_file();
+    if (!whole.starts_with("glTF")) GTEST_SKIP() << "has no description";
+    const MemoryLimit limit;
+    std::mt19937 random(20062);
+    const std::uint32_t length = [&] { std::uint32_t l; std::memcpy(&l, whole.data() + 12, 4); return l; }();
+    for (int k = 0; k < 400; ++k) {
+        std::string json = whole.substr(20, length);
+        std::size_t at = random() % json.size();
+        while (at < json.size() && !std::isdigit(static_cast<unsigned char>(json[at]))) ++at;
+        std::size_t end = at;
+        while (end < json.size() && std::isdigit(static_cast<unsigned char>(json[end]))) ++end;
+        static const char* hostile[] = {"0", "1", "3", "255", "65537", "4294967295", "4294967296",
+                                        "18446744073709551615", "-1", "1e300", "null", "[]"};
+        json.replace(at, end - at, hostile[random() % std::size(hostile)]);
+        json.resize((json.size() + 3) / 4 * 4, ' ');
+        std::string file = whole.substr(0, 20) + json + whole.substr(20 + length);
+        const std::uint32_t all = std::uint32_t(file.size()), own = std::uint32_t(json.size());
+        std::memcpy(file.data() + 8, &all, 4);
+        std::memcpy(file.data() + 12, &own, 4);
+        write_text(folder / damaged_name(), file);
+        try {
+            read_levels(folder / damaged_name());
+        } catch (const std::runtime_error& e) {
+            EXPECT_EQ(std::string(e.what()).find("bad_alloc"), std::string::npos) << json;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, FuzzMesh,
+                         testing::Values(Kind{"glb", ".glb", false, Compression::none},
+                                         Kind{"textured", ".glb", true, Compression::none},
+                                         Kind{"quantized", ".glb", true, Compression::quantize},
+                                         Kind{"meshopt", ".glb", true, Compression::meshopt},
+                                         Kind{"obj", ".obj", true, Compression::none},
+                                         Kind{"ply", ".ply", true, Compression::none},
+                                         Kind{"off", ".off", false, Compression::none}),
+                         [](const auto& info) { return std::string(info.param.name); });
