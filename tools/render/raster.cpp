@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tools/picture/sample.h"
+
 namespace glcast {
 namespace {
 
@@ -69,22 +71,6 @@ template <class T> T mix(const std::array<T, 3>& corners, float b, float c) {
 glm::vec3 unit(const glm::vec3& v) {
     const float length = glm::length(v);
     return length > 0 ? v / length : glm::vec3(0);
-}
-
-/// 0..1, between the four pixels around.
-glm::vec3 sample(const Picture& picture, const glm::vec2& at) {
-    const float x = at.x * float(picture.width) - 0.5f, y = at.y * float(picture.height) - 0.5f;
-    const float x0 = std::floor(x), y0 = std::floor(y);
-    const auto pixel = [&](float px, float py) {
-        const int i = std::clamp(int(px), 0, picture.width - 1),
-                  j = std::clamp(int(py), 0, picture.height - 1);
-        const std::uint8_t* rgb =
-            &picture.rgb[(std::size_t(j) * std::size_t(picture.width) + std::size_t(i)) * 3];
-        return glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.0f;
-    };
-    const glm::vec3 above = glm::mix(pixel(x0, y0), pixel(x0 + 1, y0), x - x0),
-                    below = glm::mix(pixel(x0, y0 + 1), pixel(x0 + 1, y0 + 1), x - x0);
-    return glm::mix(above, below, y - y0);
 }
 
 bool fits(const Picture& picture) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/picture/sample.h"
 #include "tools/view/packing.h"
 #include "tools/view/pictures.h"
 #include "tools/view/template.h"
@@ -110,7 +111,11 @@ class Atlases {
 std::string pack(const PageLevel& level, const Cube& cube, Json& described, Atlases& atlases) {
     const double largest = described["vertexMax"].get<double>();
     if (!is_textured(level)) return base64(packed_level(*level.mesh, level.vertex_distance, largest, cube));
-    const CutMesh cut = cut_at_seams(*level.mesh, level.vertex_distance, *level.texture);
+    CutMesh cut = cut_at_seams(*level.mesh, level.vertex_distance, *level.texture);
+    if (cut.mesh.colours.empty()) { // files have the texture instead; what is left of it at the vertices
+        for (const glm::vec2& at : cut.coordinates) cut.mesh.colours.push_back(sample(level.texture->colour, at));
+        described["colours"] = true;
+    }
     described["packedVertices"] = cut.mesh.positions.size();
     const bool bent = !level.texture->tangents.empty() && !level.mesh->normals.empty();
     described["texture"] = {{"width", level.texture->colour.width},
