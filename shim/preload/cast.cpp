@@ -13,13 +13,13 @@
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
 #include "shim/preload/choice.h"
-#include "shim/preload/output_name.h"
-#include "shim/preload/mask.h"
-#include "shim/preload/real.h"
 #include "shim/preload/contact_sheet.h"
-#include "shim/preload/strokes.h"
+#include "shim/preload/mask.h"
+#include "shim/preload/output_name.h"
+#include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
+#include "shim/preload/strokes.h"
 
 namespace glcast::preload {
 namespace {
@@ -32,7 +32,8 @@ constexpr double far_ratios[] = {100, 3'000, 1e6};
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
-    explicit SiblingScope(const NativeContext& first) : system(*first.system), program(first.system->current()) {
+    explicit SiblingScope(const NativeContext& first)
+        : system(*first.system), program(first.system->current()) {
         if (!program.context) program.display = first.display;
         if (program.context && !system.can_return_to(program))
             throw std::runtime_error("the program has destroyed its drawable");
@@ -118,11 +119,12 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
 /// A frame in the making of its capture.
 class Cast {
   public:
-    Cast(const std::vector<FramePart>& frame_parts, long frame_number, const Options& of)
-        : parts(frame_parts), number(frame_number), options(of), gl(masked_table(real_table(), of.mask)),
-          siblings(*frame_parts.front().context) {}
+    Cast(const std::vector<FramePart>& frame_parts, long frame_number, const Options& of,
+         const CastWindow& in)
+        : parts(frame_parts), number(frame_number), options(of), window(in),
+          gl(masked_table(real_table(), of.mask)), siblings(*frame_parts.front().context) {}
 
-    CastResult run() {
+    CastResult run(std::vector<Candidate>& listed) {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
             siblings.enter(part);
@@ -136,15 +138,23 @@ class Cast {
              [&](const Candidate& candidate) { return picture_of(candidate); });
         const bool has_scene = is_scene(candidates.front());
         if (!has_scene && options.group == 0) return nothing_solid();
-        if (options.list) return list_groups();
-        if (options.group > static_cast<int>(candidates.size())) return has_scene ? no_such_group() : nothing_solid();
-        return cast(candidates[options.group > 0 ? options.group - 1 : 0]);
+        if (options.list) return list_groups(listed);
+        if (options.group > static_cast<int>(candidates.size()))
+            return has_scene ? no_such_group() : nothing_solid();
+        const Candidate& best = candidates[options.group > 0 ? options.group - 1 : 0];
+        const Rating rating{best, substance(best.group, options.include)};
+        if (window.to_beat && !better(rating, *window.to_beat))
+            return {CastOutcome::not_better, "", {}, rating};
+        CastResult result = cast(best);
+        if (result.outcome == CastOutcome::captured) result.rating = rating;
+        return result;
     }
 
   private:
     const std::vector<FramePart>& parts;
     const long number;
     const Options& options;
+    const CastWindow& window;
     const GlTable& gl;
     SiblingScope siblings;
     std::vector<Scene> scenes;
@@ -174,8 +184,8 @@ class Cast {
         enter_for(candidate);
         constexpr int size = 192;
         const Group& group = candidate.group;
-        return draw_thumbnail(gl, drawing(candidate, {.everything = true}), group.viewport, group.depth_reversed,
-                              size);
+        return draw_thumbnail(gl, drawing(candidate, {.everything = true}), group.viewport,
+                              group.depth_reversed, size);
     }
 
     CastResult nothing_solid() const {
@@ -198,20 +208,30 @@ class Cast {
                        std::to_string(count) + (count == 1 ? " group" : " groups") + " (--list shows them)");
     }
 
-    CastResult list_groups() const {
+    CastResult list_groups(std::vector<Candidate>& listed) {
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const Candidate& c = candidates[i];
-            const std::string text = std::to_string(i + 1) + " " + describe(c.group) +
-                                     (c.backdrop ? ", a backdrop" : c.inset ? ", an inset" : "");
+            Candidate& c = candidates[i];
+            c.number = static_cast<int>(i) + 1;
+            c.window = window.name;
+            const std::string text = std::to_string(c.number) + " " + describe(c.group) +
+                                     (c.backdrop ? ", a backdrop"
+                                      : c.inset  ? ", an inset"
+                                                 : "") +
+                                     (c.window.empty() ? "" : ", " + c.window);
             say("group %s", text.c_str());
             tell("group", text);
         }
         if (!options.list_picture.empty()) {
-            const std::string trouble = write_contact_sheet(candidates, options.list_picture);
+            listed.insert(listed.end(), candidates.begin(), candidates.end());
+            const std::string trouble = write_contact_sheet(listed, options.list_picture);
             if (!trouble.empty()) return failure(trouble);
         }
         tell("listed", std::to_string(number));
-        return {CastOutcome::listed, "listed frame " + std::to_string(number)};
+        const Candidate& best = candidates.front();
+        return {CastOutcome::listed,
+                "listed frame " + std::to_string(number),
+                {},
+                Rating{best, substance(best.group, options.include)}};
     }
 
     CastResult cast(const Candidate& candidate) {
@@ -227,8 +247,7 @@ class Cast {
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, engine.mirrored_projection}, options);
         const Include& include = options.include;
-        const DrawFunction as_drawn =
-            drawing(candidate, {.lines = include.lines, .points = include.points});
+        const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
         if (!engine.box) return nothing_solid();
         tell("casting", std::to_string(number));
@@ -267,7 +286,9 @@ class Cast {
         CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path);
         if (result.outcome != CastOutcome::captured) return result;
         if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
-        if (result.outcome == CastOutcome::captured) tell("captured", std::to_string(number) + " " + path);
+        if (result.outcome != CastOutcome::captured) return result;
+        tell(window.to_beat ? "recaptured" : "captured", std::to_string(number) + " " + path);
+        if (!window.name.empty()) result.message += " of " + window.name;
         return result;
     }
 
@@ -295,9 +316,10 @@ class Cast {
 
 } // namespace
 
-CastResult cast_frame(const std::vector<FramePart>& parts, long number, const Options& options) {
+CastResult cast_frame(const std::vector<FramePart>& parts, long number, const Options& options,
+                      const CastWindow& window, std::vector<Candidate>& listed) {
     try {
-        return Cast(parts, number, options).run();
+        return Cast(parts, number, options, window).run(listed);
     } catch (const std::exception& error) {
         return failure(error.what());
     }

@@ -14,13 +14,14 @@ Census& Census::operator+=(const Census& other) {
     pixels += other.pixels;
     shaders += other.shaders;
     if (!other.refused.empty()) refused = other.refused;
+    if (!other.other_windows.empty()) other_windows = other.other_windows;
     return *this;
 }
 
 unsigned Census::kinds() const {
     unsigned bits = 0, bit = 1;
     for (const bool is : {foreign_frames > 0, solid > 0, flat > 0, lines > 0, points > 0, pixels > 0, shaders > 0,
-                          !refused.empty()}) {
+                          !refused.empty(), !other_windows.empty()}) {
         bits |= is ? bit : 0;
         bit <<= 1;
     }
@@ -66,6 +67,7 @@ const char* advice(const Census& seen) {
 } // namespace
 
 std::string explain(const Census& seen) {
+    if (!seen.other_windows.empty()) return seen.other_windows;
     std::string text = enumerate(seen);
     if (!seen.refused.empty())
         text += (text.empty() ? "" : "; ") + std::string("a frame could not be recorded: ") + seen.refused;

@@ -4,6 +4,12 @@
 #include <tuple>
 
 namespace glcast::preload {
+
+long substance(const Group& group, const Include& include) {
+    return group.triangles + group.outlined + (include.lines ? group.lines : 0) +
+           (include.points ? group.points : 0);
+}
+
 namespace {
 
 constexpr double backdrop_coverage = 0.98;
@@ -21,12 +27,6 @@ void add(Group& all, const Group& one) {
     all.points += one.points;
     all.writes_depth |= one.writes_depth;
     if (!all.base_modelview) all.base_modelview = one.base_modelview;
-}
-
-/// What may become solid, in primitives.
-long substance(const Group& group, const Include& include) {
-    return group.triangles + group.outlined + (include.lines ? group.lines : 0) +
-           (include.points ? group.points : 0);
 }
 
 long area(const Group& group) { return long(group.viewport[2]) * group.viewport[3]; }
@@ -49,12 +49,14 @@ void find_insets(std::vector<Candidate>& candidates, const Include& include) {
 
 } // namespace
 
-std::vector<Candidate> merge(const std::vector<Scene>& scenes, const std::function<bool(int, int)>& may_join) {
+std::vector<Candidate> merge(const std::vector<Scene>& scenes,
+                             const std::function<bool(int, int)>& may_join) {
     std::vector<Candidate> all;
     const int parts = static_cast<int>(scenes.size());
     const auto first_part = [](const Candidate& c) {
-        return static_cast<int>(std::find_if(c.in_part.begin(), c.in_part.end(), [](int i) { return i >= 0; }) -
-                                c.in_part.begin());
+        return static_cast<int>(
+            std::find_if(c.in_part.begin(), c.in_part.end(), [](int i) { return i >= 0; }) -
+            c.in_part.begin());
     };
     for (int part = 0; part < parts; ++part) {
         for (std::size_t i = 0; i < scenes[part].groups.size(); ++i) {
@@ -100,9 +102,9 @@ void rank(std::vector<Candidate>& candidates, const Include& include, bool pictu
     const auto in_front = [](const Candidate& c) {
         return std::tuple(c.castable, !c.group.erased, !c.backdrop, !c.inset);
     };
-    const auto best = std::max_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-        return in_front(a) < in_front(b);
-    });
+    const auto best =
+        std::max_element(candidates.begin(), candidates.end(),
+                         [&](const auto& a, const auto& b) { return in_front(a) < in_front(b); });
     long richest = 0;
     for (const Candidate& c : candidates)
         if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
@@ -110,8 +112,8 @@ void rank(std::vector<Candidate>& candidates, const Include& include, bool pictu
         const long solid = substance(c.group, include);
         const bool rich = 2 * solid >= richest;
         return std::tuple(in_front(c), rich, rich && c.group.framebuffer == 0,
-                          rich && c.group.kind == ProjectionKind::perspective, solid, c.group.lines + c.group.points,
-                          area(c.group));
+                          rich && c.group.kind == ProjectionKind::perspective, solid,
+                          c.group.lines + c.group.points, area(c.group));
     };
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](const Candidate& a, const Candidate& b) { return key(a) > key(b); });

@@ -20,7 +20,7 @@
 namespace glcast::preload {
 namespace {
 
-constexpr int margin = 8, line_height = 14, text_lines = 2, columns = 4;
+constexpr int margin = 8, line_height = 14, columns = 4;
 
 struct Page {
     int width, height;
@@ -56,10 +56,13 @@ void put_picture(Page& page, int left, int top, const Thumbnail& picture) {
                      &picture.rgb[(std::size_t(y) * picture.width + x) * 3]);
 }
 
-std::string title(const Candidate& c, std::size_t number) {
+std::string title(const Candidate& c) {
     constexpr const char* kinds[] = {"perspective", "orthographic", "flat"};
-    return std::to_string(number) + "  " + kinds[static_cast<int>(c.group.kind)] +
-           (c.backdrop ? ", backdrop" : c.inset ? ", inset" : c.group.erased ? ", painted over" : "");
+    return std::to_string(c.number) + "  " + kinds[static_cast<int>(c.group.kind)] +
+           (c.backdrop       ? ", backdrop"
+            : c.inset        ? ", inset"
+            : c.group.erased ? ", painted over"
+                             : "");
 }
 
 std::string contents(const Group& group) {
@@ -78,7 +81,9 @@ std::string write_contact_sheet(const std::vector<Candidate>& candidates, const 
         cell_height = std::max(cell_height, c.picture.height);
     }
     const int count = int(candidates.size()), across = std::clamp(count, 1, columns);
-    const int down = (count + across - 1) / across, text_height = line_height * text_lines;
+    const bool windows =
+        std::any_of(candidates.begin(), candidates.end(), [](auto& c) { return !c.window.empty(); });
+    const int down = (count + across - 1) / across, text_height = line_height * (windows ? 3 : 2);
     Page page(across * (cell_width + margin) + margin, down * (cell_height + text_height + margin) + margin);
     constexpr std::uint8_t black[] = {0, 0, 0}, grey[] = {120, 120, 120};
     for (int i = 0; i < count; ++i) {
@@ -86,8 +91,9 @@ std::string write_contact_sheet(const std::vector<Candidate>& candidates, const 
         const int left = margin + i % across * (cell_width + margin);
         const int top = margin + i / across * (cell_height + text_height + margin);
         const auto* ink = is_scene(c) ? black : grey;
-        write_text(page, left, top, title(c, std::size_t(i) + 1), ink);
+        write_text(page, left, top, title(c), ink);
         write_text(page, left, top + line_height, contents(c.group), ink);
+        write_text(page, left, top + 2 * line_height, c.window, ink);
         put_picture(page, left, top + text_height, c.picture);
     }
     if (stbi_write_png(path.c_str(), page.width, page.height, 3, page.rgb.data(), page.width * 3)) return {};

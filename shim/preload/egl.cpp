@@ -24,6 +24,7 @@ namespace {
     X(eglDestroyContext)                                                                                     \
     X(eglMakeCurrent)                                                                                        \
     X(eglReleaseThread)                                                                                      \
+    X(eglCreateWindowSurface)                                                                                \
     X(eglSwapBuffers)                                                                                        \
     X(eglSwapBuffersWithDamageKHR)                                                                           \
     X(eglSwapBuffersWithDamageEXT)                                                                           \
@@ -93,6 +94,7 @@ class Egl : public WindowSystem {
         if (!alive) real().eglGetError(); // ours
         return alive;
     }
+    std::uint32_t window_of(std::uintptr_t) const override { return 0; }
     std::string server(void*) const override { return {}; }
     void destroy(void* display, void* context) const override { real().eglDestroyContext(display, context); }
 };
@@ -171,6 +173,15 @@ GLCAST_EXPORT EGLBoolean eglReleaseThread() {
     const EGLBoolean done = real().eglReleaseThread();
     if (done && outermost) made_current({});
     return done;
+}
+
+GLCAST_EXPORT EGLSurface eglCreateWindowSurface(EGLDisplay display, EGLConfig config, EGLNativeWindowType window,
+                                                const EGLint* attributes) {
+    const Outermost outermost;
+    const EGLSurface made = real().eglCreateWindowSurface(display, config, window, attributes);
+    // Under Wayland it is a pointer, and of no use to the X server.
+    if (outermost) surface_made(as_number(made), std::uint32_t(std::uintptr_t(window)));
+    return made;
 }
 
 GLCAST_EXPORT EGLBoolean eglSwapBuffers(EGLDisplay display, EGLSurface surface) {

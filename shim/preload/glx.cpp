@@ -36,6 +36,7 @@ namespace {
     X(glXMakeCurrent)                                                                                        \
     X(glXMakeContextCurrent)                                                                                 \
     X(glXMakeCurrentReadSGI)                                                                                 \
+    X(glXCreateWindow)                                                                                       \
     X(glXSwapBuffers)                                                                                        \
     X(glXSwapBuffersMscOML)                                                                                  \
     X(glXCopySubBufferMESA)                                                                                  \
@@ -104,6 +105,8 @@ class Glx : public WindowSystem {
     bool can_return_to(const Binding& b) const override {
         return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));
     }
+
+    std::uint32_t window_of(std::uintptr_t drawable) const override { return std::uint32_t(drawable); }
 
     std::string server(void* display) const override { return x_display_name(display); }
 
@@ -257,6 +260,15 @@ GLCAST_EXPORT Bool glXMakeCurrentReadSGI(Display* display, GLXDrawable draw, GLX
     if (!real().glXMakeCurrentReadSGI) return False;
     return make_current({display, draw, read, context},
                         [=] { return real().glXMakeCurrentReadSGI(display, draw, read, context); });
+}
+
+GLCAST_EXPORT GLXWindow glXCreateWindow(Display* display, GLXFBConfig config, Window window,
+                                        const int* attributes) {
+    if (!real().glXCreateWindow) return 0;
+    const Outermost outermost;
+    const GLXWindow made = real().glXCreateWindow(display, config, window, attributes);
+    if (outermost) surface_made(made, std::uint32_t(window));
+    return made;
 }
 
 GLCAST_EXPORT void glXSwapBuffers(Display* display, GLXDrawable drawable) {

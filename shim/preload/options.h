@@ -60,6 +60,8 @@ struct Options {
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
     int reference_views = 0; ///< GLCAST_REFERENCE_VIEWS: so many further views beside the capture (capture/reference_views.h)
+    std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a part of
+                        ///< its title; empty: the one that shows most
     Mask mask; ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these
     std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too

@@ -1,64 +1,24 @@
-#include "shim/preload/session.h"
-
-#include <signal.h>
-#include <unistd.h>
+#include "shim/preload/session_state.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <map>
-#include <mutex>
-#include <set>
-#include <unordered_map>
 
-#include "shim/preload/cast.h"
-#include "shim/preload/census.h"
 #include "shim/preload/front_buffer.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
-#include "shim/preload/triggers.h"
 #include "shim/preload/watcher.h"
 
 namespace glcast::preload {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Parts kept for a swap to come; more are only seen where a program draws and never shows it.
 constexpr std::size_t most_parts = 32;
-
-struct Ended {
-    long frames = 0;
-    long next_wish = 1; ///< the first that may be cast
-};
-/// Frames are counted for each window of each context.
-using FrameKey = std::pair<const void*, std::uintptr_t>;
-
-/// All that changes in the life of a process, but for what belongs to a thread.
-struct Session {
-    const Options options = read_options();
-    const pid_t pid = getpid(); ///< a forked child has the parent's session and must leave it alone
-    Triggers triggers{options};
-    std::mutex mutex; ///< guards what follows; never held over a GL or X call
-    std::unordered_map<void*, std::shared_ptr<NativeContext>> contexts;
-    std::map<FrameKey, Ended> ended;
-    std::set<std::uintptr_t> swapped; ///< drawables
-    std::vector<FramePart> parts;     ///< of the frame that has not ended yet
-    Census seen;
-    unsigned told_kinds = 0;
-
-    std::atomic<bool> casting{false}, hooked{false};
-    std::atomic<bool> settled{false}; ///< captured, listed or failed: nothing more to say at exit
-    std::atomic<long> frames{0};
-    Clock::time_point start{}; ///< of GL: when the first context was made current
-
-    bool is_ours() const { return getpid() == pid; }
-};
 
 std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
+
+} // namespace
 
 /// Never destroyed: other threads may draw while the process ends.
 Session& session() {
@@ -76,6 +36,10 @@ Session& session() {
     return *made;
 }
 
+void update_unwanted(Session& s) { unwanted = !s.triggers.waiting(); }
+
+namespace {
+
 /// What is current on this thread. Trivial, so that it needs no destructor in foreign threads.
 struct ThreadState {
     NativeContext* context;
@@ -83,8 +47,6 @@ struct ThreadState {
     bool known; ///< to the recorder
 };
 constinit thread_local ThreadState thread_state{nullptr, 0, false};
-
-void update_unwanted(Session& s) { unwanted = !s.triggers.waiting(); }
 
 void give_up(Session& s) {
     s.triggers.give_up();
@@ -196,64 +158,6 @@ void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable
     context.recorded_drawable = drawable;
 }
 
-/// Say now and then what is seen instead of a solid: a program may be killed at any time.
-void frame_without_cast(Session& s, const Census& held) {
-    long frames = 0;
-    std::string text;
-    {
-        const std::lock_guard lock(s.mutex);
-        s.seen += held;
-        frames = ++s.seen.frames;
-        const unsigned kinds = s.seen.kinds();
-        if ((frames & (frames - 1)) != 0 && kinds == s.told_kinds) return;
-        s.told_kinds = kinds;
-        text = explain(s.seen);
-    }
-    tell("frames", std::to_string(frames));
-    tell("seen", text);
-}
-
-void end_program() {
-    say("ending the program, as asked");
-    kill(getpid(), SIGTERM);
-}
-
-/// A frame that was asked for is captured, listed, or lost for good.
-void finish(Session& s, FrameKey window, long number, const CastResult& result) {
-    s.settled = true;
-    const bool last = s.triggers.taken() || result.outcome == CastOutcome::listed;
-    if (result.outcome == CastOutcome::listed) s.triggers.give_up();
-    update_unwanted(s);
-    {
-        const std::lock_guard lock(s.mutex);
-        s.ended[window].next_wish = number + s.options.every;
-    }
-    if (result.outcome == CastOutcome::failed) {
-        say_once("%s", result.message.c_str());
-        tell("failed", result.message);
-    } else {
-        say("%s", result.message.c_str());
-    }
-    if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
-}
-
-void destroy_siblings(const std::vector<FramePart>& parts) {
-    for (const FramePart& part : parts) {
-        if (part.context->sibling) part.context->system->destroy(part.context->display, part.context->sibling);
-        part.context->sibling = nullptr;
-    }
-}
-
-void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number) {
-    if (parts.empty()) return frame_without_cast(s, {});
-    if (s.casting.exchange(true)) return; // another thread casts
-    const CastResult result = cast_frame(parts, number, s.options);
-    s.casting = false;
-    if (result.outcome == CastOutcome::nothing_solid) return frame_without_cast(s, result.held);
-    destroy_siblings(parts);
-    finish(s, window, number, result);
-}
-
 /// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
 /// that are never swapped. `context`, where not null, is current on this thread.
 std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintptr_t drawable) {
@@ -346,35 +250,9 @@ void frame_ends_here(Session& s, bool (*really)()) {
     }
 }
 
-const char* plural(long count) { return count == 1 ? "" : "s"; }
-
-/// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
-[[gnu::destructor]] void report_at_exit() noexcept {
-    const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
-    if (!(is_set("GLCAST_OUT") || is_set("GLCAST_LIST"))) return;
-    Session* s = existing;
-    const std::string program = program_name();
-    if (!s || (!s->hooked && !s->settled)) {
-        if (!has_status_file()) say("no GL seen in %s: nothing captured", program.c_str());
-        return;
-    }
-    if (!s->is_ours() || s->settled) return;
-    const std::lock_guard lock(s->mutex);
-    const long frames = s->frames, empty = s->seen.frames;
-    const std::string why = explain(s->seen);
-    if (has_status_file()) {
-        tell("frames", std::to_string(empty));
-        if (empty > 0) tell("seen", why);
-        return;
-    }
-    if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
-    if (empty == 0)
-        return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
-                   frames, plural(frames));
-    say("%ld frame%s, none with solid geometry: nothing captured (%s)", empty, plural(empty), why.c_str());
-}
-
 } // namespace
+
+Session* session_if_any() { return existing.load(std::memory_order_relaxed); }
 
 thread_local int Outermost::depth = 0;
 
@@ -458,8 +336,20 @@ void made_current(const Binding& binding) noexcept {
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
         if (!now) return;
         announce(s, *now);
+        if (now->shadow) {
+            const std::lock_guard lock(s.mutex);
+            s.windows.drawn_to(binding.draw, now->system->window_of(binding.draw));
+        }
         now->end_is_due = false;
         if (now->shadow) start_recording(s, *now, binding.draw);
+    });
+}
+
+void surface_made(std::uintptr_t drawable, std::uint32_t window) noexcept {
+    if (!drawable) return;
+    guarded([&](Session& s) {
+        const std::lock_guard lock(s.mutex);
+        s.windows.surface_made(drawable, window);
     });
 }
 

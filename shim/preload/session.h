@@ -51,6 +51,8 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
 void context_destroyed(void* handle) noexcept;
 /// After a make-current that succeeded; null context: none is current on this thread.
 void made_current(const Binding& binding) noexcept;
+/// A surface that shows in a window of X.
+void surface_made(std::uintptr_t drawable, std::uint32_t window) noexcept;
 /// Around the real swap of a drawable, whichever is current.
 void before_swap(std::uintptr_t drawable) noexcept;
 void after_swap(std::uintptr_t drawable) noexcept;

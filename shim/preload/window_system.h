@@ -23,6 +23,8 @@ class WindowSystem {
     /// Whether its drawables still exist: to leave a context whose window has been destroyed is to lose it.
     virtual bool can_return_to(const Binding& binding) const = 0;
     virtual void destroy(void* display, void* context) const = 0;
+    /// The X server's name of a drawable that may be a window; 0: not known.
+    virtual std::uint32_t window_of(std::uintptr_t drawable) const = 0;
     /// Of the X server, as in $DISPLAY; empty: not known.
     virtual std::string server(void* display) const = 0;
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 #include "shim/preload/real.h"
@@ -52,6 +53,10 @@ constexpr int smallest_window = 16; // narrower ones are helpers, not views
     X(xcb_get_window_attributes_reply)                                                                       \
     X(xcb_get_geometry)                                                                                      \
     X(xcb_get_geometry_reply)                                                                                \
+    X(xcb_get_property)                                                                                      \
+    X(xcb_get_property_reply)                                                                                \
+    X(xcb_intern_atom)                                                                                       \
+    X(xcb_intern_atom_reply)                                                                                 \
     X(xcb_send_event)                                                                                        \
     X(xcb_configure_window)
 
@@ -256,6 +261,54 @@ XConnection::Windows XConnection::find_windows() {
             steps.push_back({children[child], step.inside || view});
     }
     return found;
+}
+
+bool XConnection::is_viewable(std::uint32_t window) {
+    const Calls& x = *calls();
+    const auto ask = x.xcb_get_window_attributes(as_xcb(connection), window);
+    xcb_generic_error_t* error = nullptr;
+    const Reply<xcb_get_window_attributes_reply_t> state(
+        x.xcb_get_window_attributes_reply(as_xcb(connection), ask, &error));
+    std::free(error);
+    return state && state->map_state == XCB_MAP_STATE_VIEWABLE;
+}
+
+namespace {
+
+constexpr std::uint32_t longest_title = 128; // 4 bytes each
+constexpr int deepest_window = 16;
+
+template <class Calls> xcb_atom_t atom(const Calls& x, void* connection, std::string_view name) {
+    const auto ask = x.xcb_intern_atom(as_xcb(connection), 1, std::uint16_t(name.size()), name.data());
+    const Reply<xcb_intern_atom_reply_t> reply(x.xcb_intern_atom_reply(as_xcb(connection), ask, nullptr));
+    return reply ? reply->atom : xcb_atom_t(XCB_ATOM_NONE);
+}
+
+template <class Calls>
+std::string text_property(const Calls& x, void* connection, xcb_window_t window, xcb_atom_t name) {
+    if (name == XCB_ATOM_NONE) return {};
+    const auto ask = x.xcb_get_property(as_xcb(connection), 0, window, name, XCB_ATOM_ANY, 0, longest_title);
+    const Reply<xcb_get_property_reply_t> reply(x.xcb_get_property_reply(as_xcb(connection), ask, nullptr));
+    if (!reply || reply->format != 8) return {};
+    std::string text(reinterpret_cast<const char*>(reply.get() + 1), reply->value_len);
+    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    return text;
+}
+
+} // namespace
+
+std::string XConnection::title(std::uint32_t window) {
+    const Calls& x = *calls();
+    const xcb_atom_t modern = atom(x, connection, "_NET_WM_NAME");
+    for (int depth = 0; depth < deepest_window && window != 0; ++depth) {
+        for (const xcb_atom_t name : {modern, xcb_atom_t(XCB_ATOM_WM_NAME)})
+            if (std::string text = text_property(x, connection, window, name); !text.empty()) return text;
+        const auto ask = x.xcb_query_tree(as_xcb(connection), window);
+        const Reply<xcb_query_tree_reply_t> tree(x.xcb_query_tree_reply(as_xcb(connection), ask, nullptr));
+        if (!tree) return {};
+        window = tree->parent;
+    }
+    return {};
 }
 
 int XConnection::expose_windows() {

@@ -25,6 +25,11 @@ class XConnection {
     /// How often the key went down since the last call. Does not wait.
     int key_presses();
 
+    /// Mapped, with all that it is in. False for what is no window.
+    bool is_viewable(std::uint32_t window);
+    /// Of the window, or of the nearest that it is in and that has one; in UTF-8, empty: none.
+    std::string title(std::uint32_t window);
+
     /// Tell the windows of this process that they were exposed. Returns how many there are.
     int expose_windows();
     /// Make its top-level windows wider by `pixels`, or narrower.

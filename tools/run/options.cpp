@@ -160,6 +160,10 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--group", o.group, "Cast group K of --list (default: the one with most triangles)")
         ->envname("GLCAST_GROUP")
         ->check(CLI::Range(1, 1'000'000));
+    app.add_option("--window", o.window,
+                   "Cast this window alone: its number or title in --list, or its X id, 0x...; default: the one "
+                   "that shows most")
+        ->envname("GLCAST_WINDOW");
     app.add_flag("--list", o.list,
                  "Print the groups of the frame instead of casting it, then end the program; "
                  "--list FILE.png also shows them");
@@ -271,6 +275,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_LAYERS", o.layers},
         {"GLCAST_BOX", o.box},
         {"GLCAST_FRAME_MATRIX", o.frame_matrix},
+        {"GLCAST_WINDOW", o.window},
         {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},
         {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
         {"GLCAST_INCLUDE", o.include},

@@ -22,6 +22,7 @@ struct Options {
     std::string box;          ///< x0,y0,z0,x1,y1,z1, or empty
     std::string frame_matrix; ///< eye, base, 16 numbers, or empty
     int group = 0;            ///< from 1; 0: the one with most triangles
+    std::string window;       ///< number, title or X id; empty: the one that shows most
     bool headless = false;
     bool quit = false; ///< end the program after the capture; `list` implies it
     bool list = false;

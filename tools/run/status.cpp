@@ -27,6 +27,13 @@ void take_line(const std::string& line, Seen& seen) {
              s.captured_frame = number(rest);
              s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
          }},
+        {"recaptured",
+         [=](const std::string& rest, Seen& s) {
+             s.captured_frame = number(rest);
+             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+         }},
+        {"looks", [](const std::string&, Seen& s) { s.looking = true; }},
+        {"settled", [](const std::string&, Seen& s) { s.looking = false; }},
         {"failed",
          [](const std::string& rest, Seen& s) { s.failed = rest.empty() ? "the capture failed" : rest; }},
         {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},

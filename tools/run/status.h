@@ -20,9 +20,11 @@ struct Seen {
     std::string failed;
     std::vector<std::string> groups;
     bool listed = false;
+    bool looking = false; ///< another window may still show something better
 
     /// All is there that was asked for, or nothing more will come. `wanted` captures, 0: no limit.
     bool finished(long wanted) const {
+        if (looking) return false;
         return listed || (wanted > 0 && captures >= wanted) || (wanted == 1 && !failed.empty());
     }
 };

@@ -1,0 +1,208 @@
+// The frames of a session that have ended: which are cast, and what is told of the others.
+#include <pthread.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "shim/preload/cast.h"
+#include "shim/preload/session_state.h"
+#include "shim/preload/status.h"
+
+namespace glcast::preload {
+namespace {
+
+/// Say now and then what is seen instead of a solid: a program may be killed at any time.
+void frame_without_cast(Session& s, const Census& held) {
+    long frames = 0;
+    std::string text;
+    {
+        const std::lock_guard lock(s.mutex);
+        s.seen += held;
+        frames = ++s.seen.frames;
+        const unsigned kinds = s.seen.kinds();
+        if ((frames & (frames - 1)) != 0 && kinds == s.told_kinds) return;
+        s.told_kinds = kinds;
+        text = explain(s.seen);
+    }
+    tell("frames", std::to_string(frames));
+    tell("seen", text);
+}
+
+void end_program() {
+    say("ending the program, as asked");
+    kill(getpid(), SIGTERM);
+}
+
+/// How long other windows may take to show something better.
+constexpr std::chrono::milliseconds patience{1500};
+constexpr std::chrono::milliseconds look_again{20};
+
+bool chooses_a_window(const Options& options) {
+    return options.window.empty() && (options.list || (options.captures == 1 && options.group == 0));
+}
+
+/// What is held is the last word. From any thread.
+void settle(Session& s) {
+    if (!s.holding.exchange(false)) return;
+    s.triggers.give_up();
+    update_unwanted(s);
+    tell("settled", "");
+    if (s.options.quit) end_program();
+}
+
+void* settle_in_time(void* session) {
+    Session& s = *static_cast<Session*>(session);
+    std::this_thread::sleep_for(patience);
+    while (s.casting) std::this_thread::sleep_for(look_again);
+    settle(s);
+    return nullptr;
+}
+
+/// The windows that are not drawn again must not keep people waiting. The program's signals are not for this
+/// thread.
+void hold(Session& s) {
+    if (s.holding.exchange(true)) return;
+    s.settled = true;
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pthread_t thread;
+    const bool started = pthread_create(&thread, nullptr, settle_in_time, &s) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    started ? void(pthread_detach(thread)) : settle(s);
+}
+
+/// A frame that was asked for is captured, listed, or lost for good.
+void finish(Session& s, FrameKey window, long number, const CastResult& result) {
+    s.settled = true;
+    const bool last = s.triggers.taken() || result.outcome == CastOutcome::listed;
+    if (result.outcome == CastOutcome::listed) s.triggers.give_up();
+    update_unwanted(s);
+    {
+        const std::lock_guard lock(s.mutex);
+        s.ended[window].next_wish = number + s.options.every;
+    }
+    if (s.told_looks) tell("settled", "");
+    if (result.outcome == CastOutcome::failed) {
+        say_once("%s", result.message.c_str());
+        tell("failed", result.message);
+    } else {
+        say("%s", result.message.c_str());
+    }
+    if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
+}
+
+void destroy_siblings(const std::vector<FramePart>& parts) {
+    for (const FramePart& part : parts) {
+        if (part.context->sibling)
+            part.context->system->destroy(part.context->display, part.context->sibling);
+        part.context->sibling = nullptr;
+    }
+}
+
+void look_at_windows(Session& s, const NativeContext& context) {
+    Windows asked;
+    {
+        const std::lock_guard lock(s.mutex);
+        asked = s.windows;
+    }
+    asked.look(context.system->server(context.display));
+    const std::lock_guard lock(s.mutex);
+    s.windows.learn(asked);
+}
+
+/// Nothing where no frame of this window is wanted.
+std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, std::uintptr_t drawable) {
+    const std::string& wanted = s.options.window;
+    bool alone = false;
+    {
+        const std::lock_guard lock(s.mutex);
+        if (s.holding && s.windows.is_done(drawable)) return std::nullopt;
+        alone = s.windows.count() == 1;
+    }
+    if (!alone || s.options.list || !wanted.empty()) look_at_windows(s, context);
+    std::unique_lock lock(s.mutex);
+    if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
+        s.seen.other_windows.clear();
+        if (chooses_a_window(s.options) && s.windows.others_may_follow(drawable) &&
+            !s.told_looks.exchange(true))
+            tell("looks", s.windows.list());
+        return CastWindow{s.windows.describe(drawable), s.holding ? s.windows.held() : std::nullopt};
+    }
+    Census other;
+    other.other_windows =
+        "no window that was drawn to is --window " + wanted + ", there are: " + s.windows.list();
+    lock.unlock();
+    frame_without_cast(s, other);
+    return std::nullopt;
+}
+
+/// What comes of a frame where the program has several windows. False: it is to be taken as if there were
+/// one.
+bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result) {
+    const bool shown = result.outcome == CastOutcome::captured || result.outcome == CastOutcome::listed;
+    bool more = false;
+    {
+        const std::lock_guard lock(s.mutex);
+        s.windows.hold(drawable, result.rating);
+        more = s.holding ? s.windows.any_may_follow() : s.windows.others_may_follow(drawable);
+    }
+    if (s.holding) {
+        if (shown) say("%s", result.message.c_str());
+        if (!more) settle(s);
+        return true;
+    }
+    if (!shown || !more || !chooses_a_window(s.options)) return false;
+    say("%s", result.message.c_str());
+    hold(s);
+    return true;
+}
+
+const char* plural(long count) { return count == 1 ? "" : "s"; }
+
+/// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
+[[gnu::destructor]] void report_at_exit() noexcept {
+    const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
+    if (!(is_set("GLCAST_OUT") || is_set("GLCAST_LIST"))) return;
+    Session* s = session_if_any();
+    const std::string program = program_name();
+    if (!s || (!s->hooked && !s->settled)) {
+        if (!has_status_file()) say("no GL seen in %s: nothing captured", program.c_str());
+        return;
+    }
+    if (!s->is_ours() || s->settled) return;
+    const std::lock_guard lock(s->mutex);
+    const long frames = s->frames, empty = s->seen.frames;
+    const std::string why = explain(s->seen);
+    if (has_status_file()) {
+        tell("frames", std::to_string(empty));
+        if (empty > 0) tell("seen", why);
+        return;
+    }
+    if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
+    if (empty == 0)
+        return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
+                   frames, plural(frames));
+    say("%ld frame%s, none with solid geometry: nothing captured (%s)", empty, plural(empty), why.c_str());
+}
+
+} // namespace
+
+void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number) {
+    if (parts.empty()) return frame_without_cast(s, {});
+    if (s.casting.exchange(true)) return; // another thread casts
+    struct Over {
+        std::atomic<bool>& casting;
+        ~Over() { casting = false; }
+    } const over{s.casting};
+    const auto turn = take_turn(s, *parts.front().context, window.second);
+    if (!turn) return;
+    const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
+    const bool nothing = result.outcome == CastOutcome::nothing_solid;
+    if (!nothing) destroy_siblings(parts);
+    if (among_windows(s, window.second, result)) return;
+    nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+}
+
+} // namespace glcast::preload

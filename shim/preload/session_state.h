@@ -1,0 +1,66 @@
+// What the parts of a session share (session.h).
+#pragma once
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "shim/preload/census.h"
+#include "shim/preload/session.h"
+#include "shim/preload/triggers.h"
+#include "shim/preload/windows.h"
+
+namespace glcast::preload {
+
+using Clock = std::chrono::steady_clock;
+
+struct Ended {
+    long frames = 0;
+    long next_wish = 1; ///< the first that may be cast
+};
+/// Frames are counted for each window of each context.
+using FrameKey = std::pair<const void*, std::uintptr_t>;
+
+/// All that changes in the life of a process, but for what belongs to a thread.
+struct Session {
+    const Options options = read_options();
+    const pid_t pid = getpid(); ///< a forked child has the parent's session and must leave it alone
+    Triggers triggers{options};
+    std::mutex mutex; ///< guards what follows; never held over a GL or X call
+    std::unordered_map<void*, std::shared_ptr<NativeContext>> contexts;
+    std::map<FrameKey, Ended> ended;
+    std::set<std::uintptr_t> swapped; ///< drawables
+    std::vector<FramePart> parts;     ///< of the frame that has not ended yet
+    Census seen;
+    unsigned told_kinds = 0;
+    Windows windows;
+    std::vector<Candidate> listed; ///< of the windows that were looked at so far
+
+    std::atomic<bool> casting{false}, hooked{false};
+    std::atomic<bool> settled{false};    ///< captured, listed or failed: nothing more to say at exit
+    std::atomic<bool> told_looks{false}; ///< other windows may still show something better
+    std::atomic<bool> holding{false};    ///< something is captured or listed, and not yet the last word
+    std::atomic<long> frames{0};
+    Clock::time_point start{}; ///< of GL: when the first context was made current
+
+    bool is_ours() const { return getpid() == pid; }
+};
+
+/// Never destroyed: other threads may draw while the process ends.
+Session& session();
+/// Null before anything of GL was seen.
+Session* session_if_any();
+
+/// Whether frames are recorded follows from the triggers.
+void update_unwanted(Session& s);
+
+/// A frame that ended in `window`, the number-th there: cast it, or note what it holds instead. `parts` may
+/// be empty.
+void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number);
+
+} // namespace glcast::preload
