@@ -199,13 +199,24 @@ class Cast {
         for (const FramePart& part : parts)
             for (const auto& [what, times] : record::not_understood(*part.frame))
                 if (what.starts_with("a draw under")) result.held.shaders += times;
+        if (!candidates.empty() && options.group > static_cast<int>(candidates.size()))
+            result.held.no_such_group = groups_instead();
         return result;
     }
 
-    CastResult no_such_group() const {
+    /// In one line that --group cannot be followed, and what there is.
+    std::string groups_instead() const {
+        constexpr std::size_t most = 6;
         const std::size_t count = candidates.size();
-        return failure("there is no group " + std::to_string(options.group) + ", the frame has " +
-                       std::to_string(count) + (count == 1 ? " group" : " groups") + " (--list shows them)");
+        std::string text = "there is no group " + std::to_string(options.group) + ", the frame has " +
+                           std::to_string(count) + (count == 1 ? " group" : " groups");
+        for (std::size_t i = 0; i < std::min(count, most); ++i)
+            text += (i == 0 ? ": " : "; ") + std::to_string(i + 1) + " " + describe(candidates[i].group);
+        return text + (count > most ? "; ... (--list shows all)" : "");
+    }
+
+    CastResult no_such_group() const {
+        return failure(groups_instead());
     }
 
     CastResult list_groups(std::vector<Candidate>& listed) {

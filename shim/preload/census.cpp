@@ -14,6 +14,7 @@ Census& Census::operator+=(const Census& other) {
     pixels += other.pixels;
     shaders += other.shaders;
     if (!other.refused.empty()) refused = other.refused;
+    if (!other.no_such_group.empty()) no_such_group = other.no_such_group;
     if (!other.other_windows.empty()) other_windows = other.other_windows;
     return *this;
 }
@@ -21,7 +22,7 @@ Census& Census::operator+=(const Census& other) {
 unsigned Census::kinds() const {
     unsigned bits = 0, bit = 1;
     for (const bool is : {foreign_frames > 0, solid > 0, flat > 0, lines > 0, points > 0, pixels > 0, shaders > 0,
-                          !refused.empty(), !other_windows.empty()}) {
+                          !refused.empty(), !other_windows.empty(), !no_such_group.empty()}) {
         bits |= is ? bit : 0;
         bit <<= 1;
     }
@@ -68,6 +69,7 @@ const char* advice(const Census& seen) {
 
 std::string explain(const Census& seen) {
     if (!seen.other_windows.empty()) return seen.other_windows;
+    if (!seen.no_such_group.empty()) return seen.no_such_group;
     std::string text = enumerate(seen);
     if (!seen.refused.empty())
         text += (text.empty() ? "" : "; ") + std::string("a frame could not be recorded: ") + seen.refused;

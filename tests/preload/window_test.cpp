@@ -1,4 +1,5 @@
-// Programs with several windows (programs/windows.c): the window that shows most is cast, or the one that is asked for.
+// Programs with several windows (programs/windows.c): the window that shows most is cast, or the one that is
+// asked for.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -81,7 +82,8 @@ TEST(Window, s_of_a_program_are_all_listed) {
     const char* titles[] = {"Top", "Front", "Side", "Perspective"};
     for (int i = 0; i < 4; ++i) {
         const std::string line = std::string(i == 3 ? "perspective" : "orthographic with depth test") +
-                                 ", viewport 0 0 120 120, window " + std::to_string(i + 1) + " \"" + titles[i] + "\"";
+                                 ", viewport 0 0 120 120, window " + std::to_string(i + 1) + " \"" +
+                                 titles[i] + "\"";
         EXPECT_TRUE(says(run, line)) << run.outcome.err;
     }
     EXPECT_GT(std::filesystem::file_size(folder / "list.png"), 4000u);
@@ -91,7 +93,8 @@ TEST(Window, that_is_never_drawn_to_keeps_nobody_waiting) {
     const auto start = std::chrono::steady_clock::now();
     const WindowRun run = cast("idle", {{"GLCAST_QUIT", "1"}}, SIGTERM);
     EXPECT_NEAR(run.extent, box_edge, 0.02) << run.outcome.err;
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "it would have run for 20 s";
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15))
+        << "it would have run for 20 s";
 }
 
 TEST(Window, has_the_title_of_the_one_that_it_is_in) {
