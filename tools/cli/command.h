@@ -20,6 +20,7 @@ Run declare_mesh(CLI::App& app);
 Run declare_info(CLI::App& app);
 Run declare_compare(CLI::App& app);
 Run declare_render(CLI::App& app);
+Run declare_refine(CLI::App& app);
 Run declare_view(CLI::App& app);
 
 /// What `glcast mesh` makes of a capture when it is told nothing more: the full surface, then 1/10 and 1/100 of it,

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "tools/cli/command.h"
+#include "tools/cli/progressive.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
+#include "tools/progressive/stream.h"
 
 namespace glcast::cli {
 namespace {
@@ -129,6 +131,7 @@ int info(const Options& options) {
         options.json ? print_json(json) : print_capture(json);
         return 0;
     }
+    if (looks_like_progressive(options.file)) return progressive_info(options.file, options.json);
     const std::vector<Level> levels = read_levels(options.file);
     Json json = {
         {"file", options.file}, {"kind", "mesh"}, {"bytes", std::filesystem::file_size(options.file)}};
@@ -150,7 +153,7 @@ int info(const Options& options) {
 
 Run declare_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.add_option("file", options->file, "capture (.exr) or mesh (.glb, .obj, .ply, .off, .stl)")
+    app.add_option("file", options->file, "capture (.exr), mesh (.glb, .obj, .ply, .off, .stl) or progressive mesh (.glpm)")
         ->required();
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return info(*options); };

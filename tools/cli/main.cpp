@@ -19,6 +19,7 @@ constexpr Command commands[] = {
     {"mesh", "make a closed mesh with levels of detail out of a capture", declare_mesh},
     {"info", "say what is in a capture or a mesh, checked", declare_info},
     {"compare", "measure how far two meshes are apart", declare_compare},
+    {"refine", "take a level out of a progressive mesh, or something between two", declare_refine},
     {"render", "draw a mesh: six sides and two corners, a row per level", declare_render},
     {"view", "make a page to turn the cast in a browser, its levels and errors beside the captured views", declare_view},
 };

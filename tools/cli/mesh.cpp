@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include "tools/cli/command.h"
+#include "tools/cli/progressive.h"
 #include "tools/cli/texture.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/capture_reader.h"
@@ -23,7 +24,7 @@ constexpr double default_ratios[] = {0.1, 0.01};
 constexpr double fewest_by_default = 500; // triangles: fewer and most things lose their shape
 
 struct Options {
-    std::string capture, output, method = "contour", exterior = "layers", normals = "drawn";
+    std::string capture, output, pm, method = "contour", exterior = "layers", normals = "drawn";
     double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> edges, triangles, ratio;
     int texture = 0; ///< texels along an edge; 0: none
@@ -47,6 +48,7 @@ struct Made {
     std::vector<MeshCheck> checks; ///< of levels
     CapturedSurface captured;      ///< where a texture is asked for
     std::vector<TextureReport> textures; ///< of levels, or none
+    CollapseLog log;               ///< for a progressive mesh: of the run that made the levels
     bool keep_full = true;         ///< .glb holds it always, the others when no target was given
     std::vector<std::filesystem::path> files;
     double sample = 0;
@@ -64,6 +66,7 @@ void check_output(const Options& options) {
     if (std::find(std::begin(writable), std::end(writable), extension) == std::end(writable))
         throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
     require_writable(options.output);
+    if (!options.pm.empty()) check_pm_output(options.pm);
 }
 
 std::vector<SimplifyTarget> given_targets(const Options& options) {
@@ -147,13 +150,14 @@ void make_levels(const Options& options, Made& made) {
     if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
     const MeshCheck& full_check = made.checks[0];
     if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
+    std::vector<Mesh> simplified;
+    if (!options.pm.empty()) simplified = levels_of_one_run(made.full(), targets, made.log), targets.clear();
     std::vector<std::future<Mesh>> meshes;
     for (const SimplifyTarget& target : targets)
         meshes.push_back(std::async(std::launch::async, [&full = made.full(), &full_check, target] {
             return met(target, full_check) ? full : simplify(full, target);
         }));
-    std::vector<Mesh> simplified; // all are awaited before the full surface may move
-    for (auto& mesh : meshes) simplified.push_back(mesh.get());
+    for (auto& mesh : meshes) simplified.push_back(mesh.get()); // all, before the full surface may move
     for (Mesh& mesh : simplified) {
         const std::string name = "level " + std::to_string(made.levels.size());
         made.checks.push_back(check_mesh(mesh, depth(options)));
@@ -189,6 +193,7 @@ void measure_levels(Made& made) {
 void write(const Options& options, Made& made) {
     const Progress progress("writing " + options.output);
     const Stopwatch watch;
+    if (!options.pm.empty()) write_pm(options.pm, made.full(), made.log, made.sample);
     if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
     if (made.textures.size() > made.levels.size()) made.textures.erase(made.textures.begin());
     made.files = write_levels(options.output, made.levels);
@@ -218,6 +223,8 @@ void print_made(const Options& options, const Made& made) {
                  {"method", options.method}};
     for (const auto& file : made.files)
         json["files"].push_back({{"path", file.string()}, {"bytes", std::filesystem::file_size(file)}});
+    if (!options.pm.empty())
+        json["files"].push_back({{"path", options.pm}, {"bytes", std::filesystem::file_size(options.pm)}});
     for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(made, k));
     json["surface"] = {{"exterior", exterior_name(r.exterior)},
                        {"layers", layers_name(made.info.layers)},
@@ -256,6 +263,9 @@ void say_made(const Options& options, const Made& made) {
     }
     for (const auto& file : made.files)
         say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
+    if (!options.pm.empty())
+        say("wrote " + options.pm + " (" + std::to_string(std::filesystem::file_size(options.pm)) + " bytes, " +
+            std::to_string(made.log.size()) + " vertex splits)");
 }
 
 int make_mesh(const Options& options) {
@@ -297,6 +307,8 @@ Run declare_mesh(CLI::App& app) {
         "...\n"
         "Every level is a closed two-manifold and is measured against the full surface, or nothing is "
         "written.\n"
+        "With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the\n"
+        "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
         "Positions are in the captured model's own units and axes. .off keeps colours but no normals.");
     app.add_option("capture", options->capture, "capture made by glcast-run (.exr)")->required();
     app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply or .off")->required();
@@ -337,6 +349,7 @@ Run declare_mesh(CLI::App& app) {
         if (options->texture && options->method == "cubes")
             throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
     });
+    app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return make_mesh(*options); };
