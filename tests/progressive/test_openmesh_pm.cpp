@@ -21,8 +21,8 @@ void write_pm(const std::filesystem::path& path, ProgressiveMesh& mesh) {
     ASSERT_TRUE(file.commit()) << file.error();
 }
 
-/// Triangles as their corners' places, each in the least of their three rotations, sorted: the geometry whatever the
-/// order.
+/// Triangles as their corners' places, each in the least of their three rotations, sorted: the geometry
+/// whatever the order.
 template <class Positions>
 std::vector<std::array<std::array<float, 3>, 3>> geometry(const Positions& positions,
                                                           const std::vector<Triangle>& triangles) {

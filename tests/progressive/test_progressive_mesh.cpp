@@ -1,5 +1,7 @@
 // A progressive mesh is every level of the run of collapses that it was made of.
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "tests/mesh/bodies.h"
@@ -7,6 +9,7 @@
 #include "tools/mesh/check.h"
 #include "tools/progressive/order.h"
 #include "tools/progressive/progressive_mesh.h"
+#include "tools/simplify/simplify.h"
 
 namespace glcast::test {
 namespace {
@@ -40,6 +43,26 @@ TEST(ProgressiveMesh, IsWhatTheCollapserHadAtEveryStep) {
     for (std::size_t level = 0; level <= mesh.splits(); ++level) {
         mesh.refine_to(level);
         ASSERT_TRUE(same(mesh.mesh(), run.meshes[run.log.size() - level])) << level;
+    }
+}
+
+/// The whole road: levels of glcast's own simplification are levels of the progressive mesh made of its log.
+TEST(ProgressiveMesh, IsEveryLevelOfGlcastsOwnRun) {
+    for (LoggedBody& body : logged_bodies()) {
+        if (!check_mesh(body.mesh).closed_manifold()) continue;
+        for (glm::vec3& n : body.mesh.normals)
+            n = glm::normalize(n + glm::vec3(0.01f, 0.02f, 0.03f)); // rounded normals
+        std::vector<SimplifyTarget> targets;
+        for (const double ratio : {0.9, 0.5, 0.25, 0.1, 0.01})
+            targets.push_back(
+                {SimplifyTarget::Unit::triangles, std::floor(ratio * double(body.mesh.triangles.size()))});
+        CollapseLog log;
+        const std::vector<Mesh> levels = simplify_levels(body.mesh, targets, {.refit = false}, &log);
+        ProgressiveMesh mesh(body.mesh, log);
+        for (std::size_t k = 0; k < levels.size(); ++k) {
+            mesh.refine_to(mesh.level_of_triangles(std::size_t(targets[k].value)));
+            EXPECT_TRUE(same(mesh.mesh(), levels[k])) << body.name << " to " << targets[k].value;
+        }
     }
 }
 
