@@ -465,8 +465,9 @@ TEST_F(LayersOf, SlabsOfSpheresOneInTheOther) {
     EXPECT_LT(e.normal_max, 2);
     EXPECT_LT(e.colour_max, 1.0 / 255);
     options.most_layers = 3;
-    EXPECT_EQ(cast_of(nested_spheres).report.layers, Layers::incomplete);
-    EXPECT_EQ(cast_of(nested_spheres).report.layer_count[0], 3);
+    const Cast fewer = cast_of(nested_spheres);
+    EXPECT_EQ(fewer.report.layers, Layers::incomplete);
+    EXPECT_EQ(fewer.report.layer_count[0], 3);
 }
 
 /// More hits than may be held: what is there stays, and it is said that more is not.

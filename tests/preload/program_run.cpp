@@ -46,7 +46,8 @@ Outcome run_program(const std::vector<std::string>& arguments, const Environment
     command.environment = {{"DISPLAY", x_server().display()},
                            {"LIBGL_ALWAYS_SOFTWARE", "1"},
                            {"LP_NUM_THREADS", "1"},
-                           {"ASAN_OPTIONS", "detect_leaks=0"}};
+                           {"ASAN_OPTIONS", "detect_leaks=0"},
+                           {"UBSAN_OPTIONS", "halt_on_error=1:print_stacktrace=1"}};
     command.environment.insert(command.environment.end(), environment.begin(), environment.end());
     if (preload) command.environment.emplace_back("LD_PRELOAD", preload_list());
     return run(command);
