@@ -1,12 +1,12 @@
 // glcast mesh: capture -> surface -> levels -> file.
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
 #include <sys/resource.h>
 
 #include "tools/cli/command.h"
+#include "tools/cli/max_error.h"
 #include "tools/cli/progressive.h"
 #include "tools/cli/texture.h"
 #include "tools/deviation/level_error.h"
@@ -28,6 +28,7 @@ struct Options {
     std::string capture, output, pm, method = "contour", exterior = "layers", normals = "drawn";
     double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> edges, triangles, ratio;
+    std::vector<std::string> max_error;
     int texture = 0; ///< texels along an edge; 0: none
     std::string compress = "none";
     bool split = false, check = false, json = false;
@@ -79,7 +80,6 @@ std::vector<SimplifyTarget> given_targets(const Options& options) {
     for (double e : options.edges) targets.push_back({Unit::edges, e});
     for (double t : options.triangles) targets.push_back({Unit::triangles, t});
     for (double r : options.ratio) targets.push_back({Unit::ratio, r});
-    std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
     return targets;
 }
 
@@ -151,18 +151,16 @@ void make_levels(const Options& options, Made& made) {
     const Progress progress("simplifying");
     const Stopwatch watch;
     std::vector<SimplifyTarget> targets = given_targets(options);
+    for (const std::string& limit : options.max_error)
+        targets.push_back(coarsest_within(made.levels[0], parse_error_limit(limit).in_units(made.levels[0]),
+                                          {.refit = options.pm.empty()}));
+    std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
     made.keep_full = is_glb(options) || targets.empty();
     if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
     const MeshCheck& full_check = made.checks[0];
     if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
-    std::vector<Mesh> simplified;
-    if (!options.pm.empty()) simplified = levels_of_one_run(made.full(), targets, made.log), targets.clear();
-    std::vector<std::future<Mesh>> meshes;
-    for (const SimplifyTarget& target : targets)
-        meshes.push_back(std::async(std::launch::async, [&full = made.full(), &full_check, target] {
-            return met(target, full_check) ? full : simplify(full, target);
-        }));
-    for (auto& mesh : meshes) simplified.push_back(mesh.get()); // all, before the full surface may move
+    std::vector<Mesh> simplified = options.pm.empty() ? simplify_levels(made.full(), targets)
+                                                      : levels_of_one_run(made.full(), targets, made.log);
     for (Mesh& mesh : simplified) {
         const std::string name = "level " + std::to_string(made.levels.size());
         made.checks.push_back(check_mesh(mesh, depth(options)));
@@ -353,6 +351,21 @@ Run declare_mesh(CLI::App& app) {
     edges->check(CLI::Range(6.0, 1e10))->excludes(triangles)->excludes(ratio);
     triangles->check(CLI::Range(4.0, 1e10))->excludes(ratio);
     ratio->check(CLI::Range(1e-9, 1.0));
+    app.add_option("--max-error", options->max_error,
+                   "the coarsest level nowhere farther than this from the full surface, measured: samples (0.5), units "
+                   "(0.5u), % of the diagonal (0.1%)")
+        ->delimiter(',')
+        ->check([](const std::string& text) {
+            try {
+                parse_error_limit(text);
+            } catch (const std::exception& wrong) {
+                return std::string(wrong.what());
+            }
+            return std::string();
+        })
+        ->excludes(edges)
+        ->excludes(triangles)
+        ->excludes(ratio);
     app.add_option("--normals", options->normals, "drawn: as the program lit it; geometric: of the surface")
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();

@@ -68,8 +68,7 @@ void SurfaceWalk::take_attributes(Mesh& into, const std::vector<std::uint32_t>& 
     if (!mesh.colours.empty()) into.colours.resize(into.positions.size());
     if (!mesh.normals.empty()) into.normals.resize(into.positions.size());
     tbb::parallel_for(std::size_t(0), into.positions.size(), [&](std::size_t i) {
-        if (into.positions[i] ==
-            mesh.positions[starts[i]]) { // as it was, to the last bit: it is so in a log of collapses too
+        if (into.positions[i] == mesh.positions[starts[i]]) { // it did not move: as it was, to the bit
             if (!mesh.colours.empty()) into.colours[i] = mesh.colours[starts[i]];
             if (!mesh.normals.empty()) into.normals[i] = mesh.normals[starts[i]];
             return;

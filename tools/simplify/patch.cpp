@@ -22,6 +22,9 @@ double squared_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
     return squares > 0 ? 12 * squared_normal / (squares * squares) : 0;
 }
 
+// Of the length of the sum of normals to the sum of their lengths: below, the surface turns back on itself.
+constexpr double flat_enough = 0.4;
+
 } // namespace
 
 template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
@@ -117,12 +120,13 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
     while (!heap.empty()) {
         const std::uint32_t e = edge_of(pop()), c = half[e];
         if (c == none) continue;
-        const Placement to = place_edge(c);
+        Placement to = place_edge(c);
         if (!heap.empty() && entry_of(to.cost, e) > heap.front()) {
             push(e, to.cost);
             continue;
         }
         if (float(to.cost) > most) continue;
+        to.point = keep_volume(c, to.point);
         if (allowed(c, to.point)) {
             collapse(c, to, step);
             return true;
@@ -130,6 +134,33 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
         refuse(c);
     }
     return false;
+}
+
+/// `point`, moved square to the surface so far that the body keeps its volume (Lindstrom and Turk 1998, "Fast
+/// and memory efficient polygonal simplification"): quadrics alone put every vertex of a curved surface
+/// outside of it. Exact where flat.
+template <int N> glm::dvec3 Patch<N>::keep_volume(std::uint32_t c, const glm::dvec3& point) const {
+    const std::uint32_t a = at[c], b = after(c);
+    glm::dvec3 normal(0);
+    double area = 0, swept = 0;
+    bool open = false;
+    const auto add = [&](std::uint32_t h) {
+        const std::uint32_t v = at[next(h)], w = at[previous(h)];
+        open |= v == ghost || w == ghost;
+        if (open) return;
+        const glm::dvec3& x = position[at[h]];
+        const glm::dvec3 n = cross(position[v] - x, position[w] - x);
+        normal += n;
+        area += length(n);
+        swept += dot(n, x - point);
+    };
+    around(a, add);
+    around(b, [&](std::uint32_t h) {
+        if (after(h) != a && at[previous(h)] != a) add(h);
+    });
+    const double squared = dot(normal, normal);
+    if (open || squared < flat_enough * flat_enough * area * area) return point;
+    return point + normal * (swept / squared);
 }
 
 /// The link condition, and never a tetrahedron: that would leave two triangles back to back.

@@ -79,6 +79,7 @@ template <int N> class Patch {
     Placement place_edge(std::uint32_t c) const;
     void push(std::uint32_t edge, double cost);
     Entry pop();
+    glm::dvec3 keep_volume(std::uint32_t c, const glm::dvec3& point) const;
     bool keeps_manifold(std::uint32_t c);
     bool keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec3& to) const;
     bool allowed(std::uint32_t c, const glm::dvec3& to);

@@ -11,7 +11,7 @@ namespace {
 
 // The first round collapses what costs up to so many times the median: that leaves about a third of the
 // triangles.
-constexpr float first_price = 8;
+constexpr float first_price = 30;
 constexpr std::size_t tiles_asked_for_price = 8;
 
 /// Names of a tile's vertices: first those that are its own, then those on its rim.
