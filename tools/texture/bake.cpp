@@ -223,10 +223,7 @@ Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureO
     made.charts = layout.charts.charts.size();
     made.gutter = layout.atlas.gutter;
     made.texels_per_sample = layout.atlas.density * sample;
-    if (report) {
-        made.texels_twice = covered_twice(mesh, layout.charts, layout.atlas);
-        *report = made;
-    }
+    if (report) *report = made;
     return texture;
 }
 

@@ -23,7 +23,6 @@ struct TextureReport {
     double texels_per_sample = 0;  ///< along an axis; 1 at most: a texel a pixel of the capture
     std::size_t texels = 0;        ///< that show the surface; the gutters are not counted
     std::size_t texels_unseen = 0; ///< of these, where no ray saw the surface: colours of the vertices
-    std::size_t texels_twice = 0;  ///< that two parts of one chart cover, thinner than a sample
 };
 
 /// The texture of a closed level, and the vertex normals that belong to it, which replace mesh.normals

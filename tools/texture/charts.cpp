@@ -3,6 +3,7 @@
 #include <deque>
 #include <limits>
 #include <tbb/parallel_for.h>
+#include <utility>
 
 #include "tools/texture/plane_cells.h"
 
@@ -32,7 +33,11 @@ class Part {
     /// Number of charts; `of` says for each triangle of the part which.
     std::uint32_t split(std::vector<std::uint32_t>& of) {
         bool covers = false;
-        for (std::size_t i = 0; i < triangles.size() && !covers; ++i) covers = !put(triangles[i], 0);
+        for (std::size_t i = 0; i < triangles.size() && !covers; ++i)
+            for_cells(corners(triangles[i]), inset, [&](int x, int y) {
+                covers = std::exchange(at(x, y), 0) == 0;
+                return !covers;
+            });
         if (!covers) {
             for (std::uint32_t t : triangles) of[t] = 0;
             return 1;

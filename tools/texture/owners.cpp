@@ -23,13 +23,18 @@ void offer(Key& slot, Key key) {
     }
 }
 
-bool at_border(const Mesh& mesh, const Neighbours& neighbours, const Charts& charts, std::uint32_t t) {
-    for (std::uint32_t v : mesh.triangles[t])
-        for (std::uint32_t corner : neighbours.around(v))
-            if (charts.of[corner / 3] != charts.of[t]) return true;
-    for (std::uint32_t other : neighbours.across[t])
-        if (other == no_triangle) return true;
-    return false;
+/// Vertices that touch another chart or a boundary.
+std::vector<std::uint8_t> border_vertices(const Mesh& mesh, const Neighbours& neighbours,
+                                          const Charts& charts) {
+    std::vector<std::uint8_t> border(mesh.positions.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::uint32_t>(0, std::uint32_t(border.size()), 4096), [&](const auto& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v)
+                for (std::uint32_t corner : neighbours.around(v))
+                    border[v] |= charts.of[corner / 3] != charts.of[neighbours.around(v)[0] / 3] ||
+                                 neighbours.across[corner / 3][corner % 3] == no_triangle;
+        });
+    return border;
 }
 
 glm::dvec3 flat(const glm::dvec2& p) { return {p.x, p.y, 0}; }
@@ -73,12 +78,14 @@ std::array<glm::dvec2, 3> in_atlas(const Mesh& mesh, const Charts& charts, const
 
 std::vector<std::uint32_t> find_owners(const Mesh& mesh, const Neighbours& neighbours, const Charts& charts,
                                        const Atlas& atlas) {
+    const auto border = border_vertices(mesh, neighbours, charts);
     std::vector<Key> keys(std::size_t(atlas.size) * atlas.size, no_key);
     tbb::parallel_for(
         tbb::blocked_range<std::uint32_t>(0, std::uint32_t(charts.of.size()), 1024), [&](const auto& range) {
             for (std::uint32_t t = range.begin(); t < range.end(); ++t) {
                 auto corners = in_atlas(mesh, charts, atlas, t);
-                if (at_border(mesh, neighbours, charts, t)) {
+                const Triangle& v = mesh.triangles[t];
+                if (border[v[0]] || border[v[1]] || border[v[2]]) {
                     offer_around(corners, atlas.places[charts.of[t]], atlas.gutter, t, atlas.size, keys);
                     continue;
                 }
@@ -95,20 +102,6 @@ std::vector<std::uint32_t> find_owners(const Mesh& mesh, const Neighbours& neigh
             owners[i] = keys[i] == no_key ? no_triangle : std::uint32_t(keys[i]);
     });
     return owners;
-}
-
-std::size_t covered_twice(const Mesh& mesh, const Charts& charts, const Atlas& atlas) {
-    std::vector<std::uint8_t> covered(std::size_t(atlas.size) * atlas.size, 0);
-    std::size_t twice = 0;
-    for (std::uint32_t t = 0; t < charts.of.size(); ++t) {
-        auto corners = in_atlas(mesh, charts, atlas, t);
-        for (glm::dvec2& p : corners) p -= 0.5;
-        for_cells(corners, 1e-6, [&](int x, int y) {
-            twice += covered[std::size_t(y) * atlas.size + x]++ == 1;
-            return true;
-        });
-    }
-    return twice;
 }
 
 } // namespace glcast

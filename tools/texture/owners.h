@@ -13,7 +13,4 @@ std::array<glm::dvec2, 3> in_atlas(const Mesh& mesh, const Charts& charts, const
 std::vector<std::uint32_t> find_owners(const Mesh& mesh, const Neighbours& neighbours, const Charts& charts,
                                        const Atlas& atlas);
 
-/// The texels that two triangles or more cover, though not at a common side.
-std::size_t covered_twice(const Mesh& mesh, const Charts& charts, const Atlas& atlas);
-
 } // namespace glcast

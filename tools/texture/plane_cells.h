@@ -15,15 +15,15 @@ template <class Visit> void for_cells(const std::array<glm::dvec2, 3>& corners, 
     if (area == 0) return;
     const double turn = area > 0 ? 1 : -1;
     struct Side {
-        double x, y, rest; // x * px + y * py + rest: distance to the side, positive inside
+        double x, y, rest; // x * px + y * py + rest > 0 inside
     } sides[3];
     for (int k = 0; k < 3; ++k) {
         const glm::dvec2 &p = corners[k], &q = corners[(k + 1) % 3];
-        const double length = std::hypot(q.x - p.x, q.y - p.y);
-        if (length == 0) return;
-        sides[k].x = -turn * (q.y - p.y) / length;
-        sides[k].y = turn * (q.x - p.x) / length;
-        sides[k].rest = -(sides[k].x * p.x + sides[k].y * p.y) - inset;
+        sides[k].x = -turn * (q.y - p.y);
+        sides[k].y = turn * (q.x - p.x);
+        sides[k].rest =
+            -(sides[k].x * p.x + sides[k].y * p.y) -
+            inset * (std::abs(sides[k].x) + std::abs(sides[k].y)); // its length, or up to 1.41 times
     }
     const int x0 = int(std::ceil(std::min({a.x, b.x, c.x}) - 1e-6)),
               x1 = int(std::floor(std::max({a.x, b.x, c.x}) + 1e-6));

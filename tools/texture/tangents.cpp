@@ -16,8 +16,8 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > 1e-30 ? v / length : glm::dvec3(0);
 }
-glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& v) {
-    return unit_or_zero(v - normal * glm::dot(normal, v));
+glm::dvec3 flattened(const glm::dvec3& normal, const glm::dvec3& v) {
+    return v - normal * glm::dot(normal, v);
 }
 
 /// Corners of one vertex, and the group that each is in.
@@ -63,7 +63,7 @@ class Tangents {
             if (fan.corners[j] / 3 == other) fan.join(i, j);
     }
 
-    /// Direction of growing x in the triangle.
+    /// Where x grows in the triangle, of any length.
     glm::dvec3 along_x(std::uint32_t t) const {
         const Triangle& v = mesh.triangles[t];
         const auto& c = coordinates[t];
@@ -71,7 +71,7 @@ class Tangents {
         const glm::dvec3 d = mesh.positions[v[1]] - mesh.positions[v[0]],
                          e = mesh.positions[v[2]] - mesh.positions[v[0]];
         const double area = a.x * b.y - a.y * b.x;
-        return area == 0 ? glm::dvec3(0) : unit_or_zero((b.y * d - a.y * e) * (area > 0 ? 1.0 : -1.0));
+        return area == 0 ? glm::dvec3(0) : (b.y * d - a.y * e) / area;
     }
 
     void set_group(std::uint32_t vertex, const Fan& fan, std::uint32_t group) const {
@@ -81,13 +81,16 @@ class Tangents {
             if (fan.group[i] != group) continue;
             const std::uint32_t t = fan.corners[i] / 3, k = fan.corners[i] % 3;
             const Triangle& v = mesh.triangles[t];
-            const glm::dvec3 a = square_to(normal, mesh.positions[v[(k + 2) % 3]] - mesh.positions[v[k]]),
-                             b = square_to(normal, mesh.positions[v[(k + 1) % 3]] - mesh.positions[v[k]]);
-            sum += square_to(normal, along_x(t)) * std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+            const glm::dvec3 a = flattened(normal, mesh.positions[v[(k + 2) % 3]] - mesh.positions[v[k]]),
+                             b = flattened(normal, mesh.positions[v[(k + 1) % 3]] - mesh.positions[v[k]]);
+            const double lengths = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
+            const double cosine = lengths > 0 ? std::clamp(glm::dot(a, b) / lengths, -1.0, 1.0) : 0;
+            sum += unit_or_zero(flattened(normal, along_x(t))) * std::acos(cosine);
         }
         glm::dvec3 tangent = unit_or_zero(sum);
         if (tangent == glm::dvec3(0)) // nothing to go by: any direction square to the normal
-            tangent = square_to(normal, std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+            tangent = unit_or_zero(
+                flattened(normal, std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
         for (std::uint32_t i = 0; i < fan.corners.size(); ++i)
             if (fan.group[i] == group)
                 out[fan.corners[i] / 3][fan.corners[i] % 3] =

@@ -19,18 +19,15 @@ bool may_see(const glm::vec3& normal, ViewNumber view, float least) {
     return normal == glm::vec3(0) || facing(normal, view) >= least;
 }
 
-/// For a triangle of a part too steep for every view by its noise alone: what is around it counts.
-std::vector<glm::vec3> smoothed(const Mesh& mesh, const Neighbours& neighbours,
-                                const std::vector<glm::vec3>& normals) {
+/// Mean of each triangle and its neighbours, though not across a crease.
+std::vector<glm::vec3> smoothed(const Neighbours& neighbours, const std::vector<glm::vec3>& normals) {
     std::vector<glm::vec3> out(normals.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), 4096), [&](const auto& range) {
         for (std::size_t t = range.begin(); t < range.end(); ++t) {
-            glm::vec3 sum(0);
-            for (std::uint32_t v : mesh.triangles[t])
-                for (std::uint32_t corner : neighbours.around(v)) {
-                    const glm::vec3& other = normals[corner / 3];
-                    if (glm::dot(other, normals[t]) > 0.7f) sum += other; // not across a crease
-                }
+            glm::vec3 sum = normals[t];
+            for (std::uint32_t other : neighbours.across[t])
+                if (other != no_triangle && glm::dot(normals[other], normals[t]) > 0.7f)
+                    sum += normals[other];
             const float length = glm::length(sum);
             out[t] = length > 0 ? sum / length : normals[t];
         }
@@ -117,7 +114,7 @@ std::vector<glm::vec3> triangle_normals(const Mesh& mesh) {
 
 std::vector<ViewNumber> choose_views(const Mesh& mesh, const Neighbours& neighbours,
                                      const std::vector<glm::vec3>& normals, double crumb) {
-    const std::vector<glm::vec3> smooth = smoothed(mesh, neighbours, normals);
+    const std::vector<glm::vec3> smooth = smoothed(neighbours, smoothed(neighbours, normals));
     std::vector<ViewNumber> views(normals.size()), after(normals.size());
     sweep(normals, smooth, neighbours, 0, views, views);
     for (int round = 0; round < rounds; ++round) {
