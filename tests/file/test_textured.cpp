@@ -64,6 +64,9 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
     const Folder folder;
     std::vector levels{textured_torus(60, 40), textured_torus(12, 8, 32, "level 1")};
     round_levels(levels, GetParam().compression);
+    if (GetParam().compression == Compression::none)
+        for (Level& level : levels)
+            for (glm::dvec3& p : level.mesh.positions) p = glm::vec3(p);
     write_levels(folder / "t.glb", levels, {.compression = GetParam().compression});
     const std::vector<Level> read = read_levels(folder / "t.glb");
     ASSERT_EQ(read.size(), 2u);
@@ -73,7 +76,7 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
         EXPECT_TRUE(check.closed_manifold()) << describe(check);
         EXPECT_EQ(check.euler, 0);
         EXPECT_EQ(check.vertices, levels[k].mesh.positions.size());
-        EXPECT_EQ(by_place(read[k]), by_place(levels[k]));
+        EXPECT_TRUE(by_place(read[k]) == by_place(levels[k]));
         expect_same_pictures(read[k].texture, levels[k].texture);
     }
 }
