@@ -66,7 +66,11 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
     round_levels(levels, GetParam().compression);
     if (GetParam().compression == Compression::none)
         for (Level& level : levels)
-            for (glm::dvec3& p : level.mesh.positions) p = glm::vec3(p);
+            for (glm::dvec3& p : level.mesh.positions)
+                for (int c = 0; c < 3; ++c) {
+                    volatile float stored = float(p[c]); // GCC 12 leaves the way there and back out
+                    p[c] = stored;
+                }
     write_levels(folder / "t.glb", levels, {.compression = GetParam().compression});
     const std::vector<Level> read = read_levels(folder / "t.glb");
     ASSERT_EQ(read.size(), 2u);
