@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "tests/file/file_tools.h"
-#include "tests/file/sample_meshes.h"
+#include "tests/file/textured_torus.h"
 #include "tools/io/mesh_io.h"
 
 using namespace glcast;
@@ -72,5 +72,48 @@ TEST(Assimp, ReadsWhatWeWrite) {
                     c.r = c.r <= 0.04045f ? c.r / 12.92f : std::pow((c.r + 0.055f) / 1.055f, 2.4f);
             expect_same(*read.scene->mMeshes[0], wanted);
         }
+    }
+}
+
+namespace {
+
+/// Positions of all vertices; textures cut along seams, so there are more than the mesh has.
+Bounds bounds(const aiMesh& mesh) {
+    Bounds b;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+        b.add({mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z});
+    return b;
+}
+
+} // namespace
+
+TEST(Assimp, ReadsTextures) {
+    const Folder folder;
+    const Level level = textured_torus(48, 24);
+    for (const char* extension : {".glb", ".obj"}) {
+        SCOPED_TRACE(extension);
+        const auto path = write_levels(folder / (std::string("t") + extension), std::vector{level}).front();
+        const Scene read(path);
+        ASSERT_TRUE(read.scene) << aiGetErrorString();
+        ASSERT_EQ(read.scene->mNumMeshes, 1u);
+        const aiMesh& mesh = *read.scene->mMeshes[0];
+        EXPECT_EQ(mesh.mNumFaces, level.mesh.triangles.size());
+        EXPECT_EQ(mesh.mNumVertices, 49u * 25u) << "the seams once more, and where they cross";
+        const Bounds is = bounds(mesh), wanted = bounds(level.mesh);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(is.lo[k], wanted.lo[k], 1e-5);
+            EXPECT_NEAR(is.hi[k], wanted.hi[k], 1e-5);
+        }
+        ASSERT_TRUE(mesh.HasTextureCoords(0));
+        EXPECT_FALSE(mesh.HasVertexColors(0));
+        const aiMaterial& material = *read.scene->mMaterials[mesh.mMaterialIndex];
+        aiString colour, normal;
+        EXPECT_EQ(aiGetMaterialTexture(&material, aiTextureType_DIFFUSE, 0, &colour), aiReturn_SUCCESS);
+        EXPECT_EQ(aiGetMaterialTexture(&material, aiTextureType_NORMALS, 0, &normal), aiReturn_SUCCESS);
+        if (std::string(extension) == ".glb") {
+            ASSERT_EQ(read.scene->mNumTextures, 2u);
+            EXPECT_EQ(std::string(read.scene->mTextures[0]->achFormatHint), "png");
+        } else
+            EXPECT_EQ(std::string(colour.C_Str()), "t.colour.png");
     }
 }

@@ -64,6 +64,13 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
     const Folder folder;
     std::vector levels{textured_torus(60, 40), textured_torus(12, 8, 32, "level 1")};
     round_levels(levels, GetParam().compression);
+    if (GetParam().compression == Compression::none)
+        for (Level& level : levels)
+            for (glm::dvec3& p : level.mesh.positions)
+                for (int c = 0; c < 3; ++c) {
+                    volatile float stored = float(p[c]); // GCC 12 leaves the way there and back out
+                    p[c] = stored;
+                }
     write_levels(folder / "t.glb", levels, {.compression = GetParam().compression});
     const std::vector<Level> read = read_levels(folder / "t.glb");
     ASSERT_EQ(read.size(), 2u);
@@ -73,7 +80,7 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
         EXPECT_TRUE(check.closed_manifold()) << describe(check);
         EXPECT_EQ(check.euler, 0);
         EXPECT_EQ(check.vertices, levels[k].mesh.positions.size());
-        EXPECT_EQ(by_place(read[k]), by_place(levels[k]));
+        EXPECT_TRUE(by_place(read[k]) == by_place(levels[k]));
         expect_same_pictures(read[k].texture, levels[k].texture);
     }
 }
