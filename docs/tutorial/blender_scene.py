@@ -6,9 +6,13 @@ import math
 import sys
 
 import bpy
+import numpy
 from mathutils import Euler, Vector
 
 *files, out = sys.argv[sys.argv.index("--") + 1:]
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool  # Debian 12: the importer of Blender 3.4 is older than its numpy
+
 TURNS = [(0, 0, 0.5), (-math.pi / 2, 0, 0.4), (0, 0, -0.6)]  # z is up here: the importer turns y up into it
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -59,7 +63,7 @@ bpy.context.collection.objects.link(camera)
 scene = bpy.context.scene
 scene.camera = camera
 scene.render.engine = "CYCLES"
-scene.cycles.samples, scene.cycles.use_denoising = 24, False
+scene.cycles.samples, scene.cycles.use_denoising = 16, False
 scene.view_settings.view_transform = "Standard"
 scene.render.resolution_x, scene.render.resolution_y = 900, 420
 scene.render.filepath = out

@@ -74,7 +74,7 @@ const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.shadowMap.enabled = true;
 document.body.append(renderer.domElement);
 const scene = litScene();
-const distance = Number(new URLSearchParams(location.search).get('distance') ?? 6.5);
+const distance = Number(new URLSearchParams(location.search).get('distance') ?? 5.4);
 const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 200);
 camera.position.set(0, 0.38 * distance, distance);
 const controls = new OrbitControls(camera, renderer.domElement);
