@@ -5,7 +5,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 const casts = [ // file, place on the floor, how to stand it up
   { file: '../../out/gears.glb', x: -2.3, turn: [0, 0.5, 0] },
-  { file: '../../out/rings.glb', x: 0, turn: [-Math.PI / 2, 0, -0.4] },
+  { file: '../../out/rings.glb', x: 0, turn: [Math.PI, 0.4, 0] },
   { file: '../../out/cow.glb', x: 2.3, turn: [0, -0.6, 0] },
 ];
 
