@@ -6,10 +6,14 @@ import math
 import sys
 
 import bpy
+import numpy
 from mathutils import Euler, Vector
 
 *files, out = sys.argv[sys.argv.index("--") + 1:]
-TURNS = [(0, 0, 0.5), (-math.pi / 2, 0, 0.4), (0, 0, -0.6)]  # z is up here: the importer turns y up into it
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool  # Debian 12: the importer of Blender 3.4 is older than its numpy
+
+TURNS = [(0, 0, 0.5), (math.pi, 0, 0.4), (0, 0, -0.6)]  # z is up here: the importer turns y up into it
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 
@@ -44,11 +48,11 @@ floor.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0
 bpy.context.object.data.materials.append(floor)
 
 sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-sun.data.energy, sun.data.angle, sun.rotation_euler = 3, 0.05, Euler((0.7, -0.4, 0))
+sun.data.energy, sun.data.angle, sun.rotation_euler = 2.2, 0.05, Euler((0.7, -0.4, 0))
 bpy.context.collection.objects.link(sun)
 world = bpy.data.worlds.new("sky")
 world.use_nodes = True
-world.node_tree.nodes["Background"].inputs[0].default_value = (0.75, 0.8, 0.85, 1)
+world.node_tree.nodes["Background"].inputs[0].default_value = (0.45, 0.48, 0.52, 1)
 bpy.context.scene.world = world
 
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
@@ -59,8 +63,8 @@ bpy.context.collection.objects.link(camera)
 scene = bpy.context.scene
 scene.camera = camera
 scene.render.engine = "CYCLES"
-scene.cycles.samples, scene.cycles.use_denoising = 24, False
+scene.cycles.samples, scene.cycles.use_denoising = 12, False
 scene.view_settings.view_transform = "Standard"
-scene.render.resolution_x, scene.render.resolution_y = 900, 420
+scene.render.resolution_x, scene.render.resolution_y = 800, 340
 scene.render.filepath = out
 bpy.ops.render.render(write_still=True)

@@ -5,7 +5,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 const casts = [ // file, place on the floor, how to stand it up
   { file: '../../out/gears.glb', x: -2.3, turn: [0, 0.5, 0] },
-  { file: '../../out/rings.glb', x: 0, turn: [-Math.PI / 2, 0, -0.4] },
+  { file: '../../out/rings.glb', x: 0, turn: [Math.PI, 0.4, 0] },
   { file: '../../out/cow.glb', x: 2.3, turn: [0, -0.6, 0] },
 ];
 
@@ -74,7 +74,7 @@ const renderer = new THREE.WebGLRenderer({ antialias: true });
 renderer.shadowMap.enabled = true;
 document.body.append(renderer.domElement);
 const scene = litScene();
-const distance = Number(new URLSearchParams(location.search).get('distance') ?? 6.5);
+const distance = Number(new URLSearchParams(location.search).get('distance') ?? 5.4);
 const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 200);
 camera.position.set(0, 0.38 * distance, distance);
 const controls = new OrbitControls(camera, renderer.domElement);

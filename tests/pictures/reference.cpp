@@ -63,6 +63,18 @@ Picture light_up(const SeenImage& seen, const OrthoView& camera, const std::vect
     return picture;
 }
 
+/// Of the pixels that both cover: what lies within both outlines.
+SquaredError error_inside(const Picture& a, const Picture& b, const std::vector<char>& first,
+                          const std::vector<char>& second) {
+    SquaredError error;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        if (!first[i / 3] || !second[i / 3]) continue;
+        const double d = (double(a.rgb[i]) - double(b.rgb[i])) / 255;
+        error.sum += d * d, ++error.values;
+    }
+    return error;
+}
+
 /// Covered by the reference, but drawn without light.
 std::vector<char> without_light(const ReferenceView& view) {
     std::vector<char> dark(view.lit.size());
@@ -71,7 +83,7 @@ std::vector<char> without_light(const ReferenceView& view) {
 }
 
 struct ViewError {
-    SquaredError all;
+    SquaredError all, inside;
     std::size_t covered = 0; ///< pixels
     double ssim = 0;
 };
@@ -79,7 +91,7 @@ struct ViewError {
 ViewError compare(const Mesh& mesh, const Texture& texture, const ReferenceView& view) {
     const SeenImage level = rasterise(mesh, texture, view.camera);
     const Picture a = lit(view), b = lit(level, view);
-    ViewError error{squared_error(a, b), 0, ssim(a, b)};
+    ViewError error{squared_error(a, b), error_inside(a, b, view.seen.covered, level.covered), 0, ssim(a, b)};
     for (std::size_t p = 0; p < level.covered.size(); ++p)
         error.covered += level.covered[p] || view.seen.covered[p];
     return error;
@@ -152,11 +164,11 @@ PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<c
     std::vector<ViewError> errors(views.size());
     tbb::parallel_for(std::size_t(0), views.size(),
                       [&](std::size_t k) { errors[k] = compare(mesh, texture, views[k]); });
-    SquaredError all;
+    SquaredError all, inside;
     double worst = 0, ssim_sum = 0;
     std::size_t covered = 0;
     for (const ViewError& error : errors) {
-        all += error.all;
+        all += error.all, inside += error.inside;
         worst = std::max(worst, error.all.mean());
         ssim_sum += error.ssim;
         covered += error.covered;
@@ -166,6 +178,7 @@ PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<c
     result.views = views.size();
     result.psnr = psnr(all.mean());
     result.psnr_covered = psnr(covered ? all.sum / (3.0 * double(covered)) : 0);
+    result.psnr_inside = psnr(inside.mean());
     result.psnr_worst = psnr(worst);
     result.ssim = ssim_sum / double(views.size());
     result.background_share = 1 - double(covered) / pixels;

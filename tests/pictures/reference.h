@@ -35,6 +35,7 @@ Picture lit(const SeenImage& level, const ReferenceView& where);
 struct PictureError {
     double psnr = 0;             ///< all pixels, background too
     double psnr_covered = 0;     ///< only pixels that the original or the level covers
+    double psnr_inside = 0;  ///< only pixels that both cover: colour and light, whatever the outlines do
     double psnr_worst = 0;       ///< of the worst single view, all pixels
     double ssim = 0;             ///< mean of the views
     double background_share = 0; ///< pixels that neither covers

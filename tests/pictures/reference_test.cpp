@@ -50,6 +50,7 @@ TEST(PictureError, WhatWasDrawnLooksLikeItself) {
         EXPECT_GT(same.ssim, 0.998);
         EXPECT_LT(same.psnr_covered, same.psnr);
         EXPECT_LE(same.psnr_worst, same.psnr);
+        EXPECT_GT(same.psnr_inside, 44);
         EXPECT_GT(same.background_share, 0.2);
         const double sample = views[0].camera.pixel;
         const PictureError shifted = picture_error(moved(mesh, glm::dvec3(sample)), {}, views);
@@ -83,6 +84,7 @@ TEST(PictureError, AMissingSquareInClosedForm) {
     EXPECT_NEAR(error.psnr, -10 * std::log10(value * value * share), 1e-9);
     EXPECT_NEAR(error.psnr_covered, -10 * std::log10(value * value), 1e-9);
     EXPECT_NEAR(error.background_share, 1 - share, 1e-12);
+    EXPECT_TRUE(std::isinf(error.psnr_inside)) << "no pixel is covered by both";
     EXPECT_LT(error.ssim, 1);
 }
 

@@ -59,15 +59,16 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
                 {"views", error.views},
                 {"psnr", error.psnr},
                 {"psnrCovered", error.psnr_covered},
+                {"psnrInside", error.psnr_inside},
                 {"psnrWorstView", error.psnr_worst},
                 {"ssim", error.ssim},
                 {"backgroundShare", error.background_share}};
-    std::fprintf(
-        stderr,
-        "%-14s %-16s %7zu triangles: mean %.4f samples, %.2f dB (covered %.2f, worst view %.2f), SSIM %.4f\n",
-        context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
-        row["meanError"].get<double>() / context.sample, error.psnr, error.psnr_covered, error.psnr_worst,
-        error.ssim);
+    std::fprintf(stderr,
+                 "%-12s %-14s %7zu triangles: mean %.4f samples, %.2f dB (inside %.2f, covered %.2f, worst view "
+                 "%.2f), SSIM %.4f\n",
+                 context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
+                 row["meanError"].get<double>() / context.sample, error.psnr, error.psnr_inside,
+                 error.psnr_covered, error.psnr_worst, error.ssim);
     context.rows.push_back(row);
     return row;
 }
