@@ -17,10 +17,12 @@ constexpr double inset_share = 1.0 / 50; ///< of the pixels that the largest cov
 constexpr double corner_inset_share = 1.0 / 4;
 constexpr double corner_share = 1.0 / 16; ///< of the other's viewport: surely one
 constexpr long inset_richness = 10;       ///< in a larger one, so many times the triangles of the other: none
+constexpr long helper_richness = 10;      ///< an offscreen helper has at most so many times the triangles of the scene
 constexpr std::size_t most_pictures = 16;
 
 void add(Group& all, const Group& one) {
     all.draws += one.draws;
+    all.last_draw = std::max(all.last_draw, one.last_draw);
     all.triangles += one.triangles;
     all.outlined += one.outlined;
     all.lines += one.lines;
@@ -108,10 +110,21 @@ void rank(std::vector<Candidate>& candidates, const Include& include, bool pictu
     long richest = 0;
     for (const Candidate& c : candidates)
         if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
+    // Of several framebuffers, none of them the window's, the one that was drawn to last is shown: what went before
+    // helped to draw it (shadow and reflection maps, the numbers that OpenCSG marks its bodies with).
+    GLuint shown = 0;
+    long last = -1;
+    for (const Candidate& c : candidates) {
+        const bool serious = helper_richness * substance(c.group, include) >= richest;
+        if (in_front(c) != in_front(*best) || !serious || c.group.last_draw <= last) continue;
+        last = c.group.last_draw;
+        shown = c.group.framebuffer;
+    }
     const auto key = [&](const Candidate& c) {
         const long solid = substance(c.group, include);
+        const bool helps = shown != 0 && c.group.framebuffer != 0 && c.group.framebuffer != shown;
         const bool rich = 2 * solid >= richest;
-        return std::tuple(in_front(c), rich, rich && c.group.framebuffer == 0,
+        return std::tuple(in_front(c), !helps, rich, rich && c.group.framebuffer == 0,
                           rich && c.group.kind == ProjectionKind::perspective, solid,
                           c.group.lines + c.group.points, area(c.group));
     };

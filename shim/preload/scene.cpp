@@ -86,6 +86,7 @@ class Analysis final : public DrawGate {
             group.base_modelview = pushed ? *pushed : get_matrix(inner, GL_MODELVIEW_MATRIX);
         pushed.reset();
         ++group.draws;
+        group.last_draw = static_cast<long>(scene.draws.size());
         scene.draws.push_back(draw);
         add_primitives(primitives);
         return false;

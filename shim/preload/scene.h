@@ -29,6 +29,7 @@ struct Group {
     bool depth_reversed = false; ///< the greater depth is in front
     bool erased = false;         ///< a clear of the whole viewport came after: nothing of it is seen
     long draws = 0;              ///< of any primitive
+    long last_draw = -1;         ///< index into Scene::draws
     long triangles = 0;          ///< filled
     long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
     long lines = 0, points = 0;

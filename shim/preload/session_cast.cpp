@@ -121,7 +121,8 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
         if (s.holding && s.windows.is_done(drawable)) return std::nullopt;
         alone = s.windows.count() == 1;
     }
-    if (!alone || s.options.list || !wanted.empty()) look_at_windows(s, context);
+    const bool chooses = !alone && chooses_a_window(s.options);
+    if (chooses || s.options.list || !wanted.empty()) look_at_windows(s, context);
     std::unique_lock lock(s.mutex);
     if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
         s.seen.other_windows.clear();

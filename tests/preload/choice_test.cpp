@@ -84,6 +84,12 @@ TEST(Choice, can_be_overruled_by_number) {
     EXPECT_NEAR(extent(*run.capture), 4, 0.05);
 }
 
+TEST(Choice, of_offscreen_pictures_is_the_one_drawn_last) {
+    const SceneRun run = cast("helper");
+    expect_the_body(run);
+    expect_green(run);
+}
+
 TEST(Choice, is_shown_as_pictures) {
     const TemporaryFolder folder;
     const Outcome outcome = run_program({SCENES, "cad"}, {{"GLCAST_LIST", folder / "list.png"}}, true);

@@ -195,6 +195,21 @@ TEST_F(GlcastRun, ListsGroupsOnStandardOutput) {
     EXPECT_EQ(result.out, "1 three gears\n2 a wall\n");
 }
 
+TEST_F(GlcastRun, WaitsForTheLastWordOfSeveralWindows) {
+    const CommandResult listed =
+        run({"--list", "--", "sleep", nap},
+            "hooked GLX;looks 1 a, 2 b;group 1 gears;listed 1;group 1 a wall;listed 1;settled ");
+    EXPECT_EQ(listed.out, "1 gears\n1 a wall\n");
+    const CommandResult cast =
+        run({"--quit", "-o", capture(), "--", "sleep", nap},
+            "hooked GLX;looks 1 a, 2 b;captured 3 " + capture() + ";recaptured 5 " + capture() + ";settled ");
+    EXPECT_EQ(cast.exit_code, 0) << cast.err;
+    EXPECT_THAT(cast.err, HasSubstr("frame 5 of sleep is cast in"));
+    const CommandResult killed = run({"--timeout", "1", "--quit", "-o", capture(), "--", "sleep", nap},
+                                     "hooked GLX;looks 1 a, 2 b;captured 3 " + capture());
+    EXPECT_EQ(killed.exit_code, 0) << killed.err; // what is captured is captured
+}
+
 TEST_F(GlcastRun, HandsItsOptionsToTheShim) {
     const CommandResult result = run({"-n", "64", "--normals", "six", "--layers", "3", "--box", "0,0,0,1,1,1",
                                       "--group", "2", "--frame", "7", "-o", capture(), "--", "env"});

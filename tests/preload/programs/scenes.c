@@ -143,6 +143,33 @@ static void composite(int still) {
     }
 }
 
+/* What is shown is drawn offscreen, after something richer that only helps to draw it. */
+static void helper(void) {
+    glXMakeCurrent(display, window, context);
+    const GLuint mask = make_texture(), texture = make_texture();
+    bind_framebuffer(mask);
+    GLint mask_framebuffer = 0, framebuffer = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &mask_framebuffer);
+    bind_framebuffer(texture);
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
+    for (int frame = 0; frame < frames; ++frame) {
+        glBindFramebuffer(GL_FRAMEBUFFER, mask_framebuffer);
+        glViewport(0, 0, size, size);
+        clear();
+        camera(1);
+        lit(0);
+        glColor3f(1, 0, 0);
+        glScalef(2, 2, 2);
+        for (int i = 0; i < 5; ++i) draw_chiral();
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        draw_offscreen();
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        clear();
+        quad_of_texture(texture);
+        glXSwapBuffers(display, window);
+    }
+}
+
 static GLuint shared_texture;
 static sem_t drawn, shown;
 static void* draw_in_thread(void* unused) {
@@ -323,6 +350,7 @@ int main(int argc, char** argv) {
     context = make_context(0);
     other_context = make_context(context);
     if (IS("composite") || IS("composite_still")) return composite(IS("composite_still")), 0;
+    if (IS("helper")) return helper(), 0;
     if (IS("composite_of_thread")) return composite_of_thread(), 0;
     glXMakeCurrent(display, window, context);
     if (IS("keys")) return keys(), 0;
