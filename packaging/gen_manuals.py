@@ -34,6 +34,10 @@ EXAMPLES = {
         ("The surface with two levels of detail:", "glcast mesh gears.exr -o gears.glb"),
         ("Levels of at most so many triangles:", "glcast mesh gears.exr -o gears.glb --triangles 10000,500"),
     ],
+    "glcast refine": [
+        ("A level out of a progressive mesh:", "glcast mesh gears.exr -o gears.glb --pm gears.glpm\n"
+         "glcast refine gears.glpm -o coarse.glb --triangles 2000"),
+    ],
     "glcast info": [("What is in a capture, for a script:", "glcast info gears.exr --json")],
     "glcast compare": [("How far a cast is from the original:", "glcast compare original.obj cast.glb")],
     "glcast render": [("Six sides and two corners of every level:", "glcast render gears.glb -o gears.png")],

@@ -72,7 +72,7 @@ struct Apart {
         std::string stream = header + std::string(4, '\0');
         put(stream, header.size(), checksum(header));
         for (const Chunk& chunk : chunks) {
-            const std::string data = packed(chunk.bytes);
+            const std::string data = packed({chunk.bytes, {}});
             std::string head(28, '\0');
             put(head, 0, chunk.count);
             put(head, 4, std::uint64_t(chunk.bytes.size())), put(head, 12, std::uint64_t(data.size()));
@@ -116,7 +116,12 @@ bool refused(const std::string& stream) {
 
 TEST(FuzzStream, ComesApartAndTogether) {
     const std::string stream = stream_of(small_body());
-    EXPECT_EQ(Apart(stream).together(), stream);
+    const Apart whole(stream), again(whole.together());
+    EXPECT_EQ(again.header, whole.header);
+    ASSERT_EQ(again.chunks.size(), whole.chunks.size());
+    for (std::size_t k = 0; k < whole.chunks.size(); ++k)
+        EXPECT_EQ(again.chunks[k].bytes, whole.chunks[k].bytes);
+    EXPECT_FALSE(refused(whole.together()));
     EXPECT_FALSE(refused(stream));
 }
 

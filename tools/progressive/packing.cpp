@@ -7,7 +7,8 @@
 namespace glcast::progressive {
 namespace {
 
-constexpr std::size_t piece = 1u << 20;
+constexpr std::size_t piece = 1u << 18;
+constexpr std::size_t worth_a_code = 4096; ///< bytes: a code of its own takes some 80
 
 /// What zlib's counters hold.
 uInt part_of(std::size_t bytes) { return uInt(std::min<std::size_t>(bytes, 1u << 30)); }
@@ -20,34 +21,42 @@ struct Inflater {
     ~Inflater() { inflateEnd(&z); }
 };
 
+Bytef* bytes_at(std::string_view text) { return reinterpret_cast<Bytef*>(const_cast<char*>(text.data())); }
+
 struct Deflater {
     z_stream z{};
     Deflater() {
         if (deflateInit2(&z, 6, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK) throw std::bad_alloc();
     }
     ~Deflater() { deflateEnd(&z); }
-};
 
-Bytef* bytes_at(std::string_view text) { return reinterpret_cast<Bytef*>(const_cast<char*>(text.data())); }
+    void add(std::string_view bytes, int then, std::string& out) {
+        do {
+            z.next_in = bytes_at(bytes), z.avail_in = part_of(bytes.size());
+            bytes.remove_prefix(z.avail_in);
+            do {
+                const std::size_t before = out.size();
+                out.resize(before + piece);
+                z.next_out = bytes_at(out) + before, z.avail_out = piece;
+                deflate(&z, bytes.empty() ? then : Z_NO_FLUSH);
+                out.resize(out.size() - z.avail_out);
+            } while (z.avail_out == 0);
+        } while (!bytes.empty());
+    }
+};
 
 } // namespace
 
-std::string packed(std::string_view bytes) {
+std::string packed(const Planes& planes) {
     Deflater deflater;
-    z_stream& z = deflater.z;
     std::string out;
-    int state = Z_OK;
-    while (state != Z_STREAM_END) {
-        if (z.avail_in == 0) {
-            z.next_in = bytes_at(bytes), z.avail_in = part_of(bytes.size());
-            bytes.remove_prefix(z.avail_in);
+    std::size_t done = 0;
+    for (const std::size_t end : planes.ends)
+        if (end - done >= worth_a_code && end < planes.bytes.size()) {
+            deflater.add(std::string_view(planes.bytes).substr(done, end - done), Z_BLOCK, out);
+            done = end;
         }
-        const std::size_t before = out.size();
-        out.resize(before + piece);
-        z.next_out = bytes_at(out) + before, z.avail_out = piece;
-        state = deflate(&z, bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
-        out.resize(out.size() - z.avail_out);
-    }
+    deflater.add(std::string_view(planes.bytes).substr(done), Z_FINISH, out);
     return out;
 }
 

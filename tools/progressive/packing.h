@@ -40,10 +40,18 @@ template <class Float> Float with_difference(Bits<Float> z, Float expected) {
     return from_ordered<Float>(Bits<Float>(ordered(expected) + unzigzag(z)));
 }
 
+/// Bytes, and where one kind of them ends and the next begins.
+struct Planes {
+    std::string bytes;
+    std::vector<std::size_t> ends;
+};
+
 /// Appends the numbers as planes: the highest bytes of all, then the next lower ones, ...
-template <class U> void put_planes(std::string& bytes, const std::vector<U>& column) {
-    for (int shift = 8 * sizeof(U) - 8; shift >= 0; shift -= 8)
-        for (const U value : column) bytes.push_back(char(std::uint8_t(value >> shift)));
+template <class U> void put_planes(Planes& planes, const std::vector<U>& column) {
+    for (int shift = 8 * sizeof(U) - 8; shift >= 0; shift -= 8) {
+        for (const U value : column) planes.bytes.push_back(char(std::uint8_t(value >> shift)));
+        planes.ends.push_back(planes.bytes.size());
+    }
 }
 
 /// Reads what was put together from columns. Throws std::runtime_error where there is less than asked for.
@@ -75,7 +83,8 @@ class ColumnReader {
 };
 
 /// By zlib, without looking for repetitions further than the last byte: what is packed here is noise or runs.
-std::string packed(std::string_view bytes);
+/// Each plane that is long enough has a code of its own.
+std::string packed(const Planes& planes);
 
 /// Throws std::runtime_error where it is not exactly `size` bytes; asks for memory only as it fills it.
 std::string unpacked(std::string_view bytes, std::uint64_t size);

@@ -149,6 +149,12 @@ Mesh ProgressiveMesh::mesh() const {
     return mesh;
 }
 
+void ProgressiveMesh::shrink() {
+    const auto each = [](auto&... vectors) { (vectors.shrink_to_fit(), ...); };
+    each(now.positions, now.colours, now.normals, now.triangles, vertex_ids, triangle_ids, kept, triangle_end,
+         moved_end, moved, other_positions, other_colours, other_normals);
+}
+
 std::size_t ProgressiveMesh::bytes() const {
     return bytes_of(now.positions) + bytes_of(now.colours) + bytes_of(now.normals) + bytes_of(now.triangles) +
            bytes_of(vertex_ids) + bytes_of(triangle_ids) + bytes_of(kept) + bytes_of(triangle_end) +

@@ -84,6 +84,7 @@ class ProgressiveMesh {
     std::span<const std::uint32_t> moved_by(std::size_t split) const;
 
     std::size_t bytes() const; ///< of memory taken
+    void shrink();             ///< gives back the memory that was taken for further splits
 
   private:
     void forward();

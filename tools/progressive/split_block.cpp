@@ -1,9 +1,6 @@
 #include "tools/progressive/split_block.h"
 
 #include <cmath>
-
-#include "tools/progressive/packing.h"
-
 namespace glcast::progressive {
 namespace {
 
@@ -114,17 +111,18 @@ template <class Block, class Do> void each_vector_column(Block& block, bool colo
             for (auto& column : *columns) act(column);
 }
 
-std::string bytes_of(const Block& block, bool colours, bool normals) {
-    std::string bytes;
-    put_planes(bytes, block.kept);
-    put_planes(bytes, block.vertex_id);
-    put_planes(bytes, block.triangles);
-    put_planes(bytes, block.form);
-    put_planes(bytes, block.apex);
-    put_planes(bytes, block.triangle_id);
-    put_planes(bytes, block.far_apex);
-    each_vector_column(block, colours, normals, [&](const auto& column) { put_planes(bytes, column); });
-    return bytes + block.moved;
+Planes planes_of(const Block& block, bool colours, bool normals) {
+    Planes planes;
+    put_planes(planes, block.kept);
+    put_planes(planes, block.vertex_id);
+    put_planes(planes, block.triangles);
+    put_planes(planes, block.form);
+    put_planes(planes, block.apex);
+    put_planes(planes, block.triangle_id);
+    put_planes(planes, block.far_apex);
+    each_vector_column(block, colours, normals, [&](const auto& column) { put_planes(planes, column); });
+    planes.bytes += block.moved;
+    return planes;
 }
 
 /// All but the moved triangles, which are the rest of `reader`.
@@ -262,12 +260,12 @@ Incidence incidence_of(const ProgressiveMesh& mesh) {
     return incidence;
 }
 
-std::string encode_splits(ProgressiveMesh& mesh, Incidence& incidence, std::size_t& count) {
+Planes encode_splits(ProgressiveMesh& mesh, Incidence& incidence, std::size_t& count) {
     Block block;
     std::size_t done = 0;
     while (done < count && block.moved.size() < enough_mask_bytes) put_split(block, mesh, incidence), ++done;
     count = done;
-    return bytes_of(block, mesh.has_colours(), mesh.has_normals());
+    return planes_of(block, mesh.has_colours(), mesh.has_normals());
 }
 
 void decode_splits(std::string_view bytes, std::size_t count, const Totals& totals, ProgressiveMesh& mesh,

@@ -1,9 +1,9 @@
 // A run of vertex splits as bytes. Internal; docs/progressive-meshes.md has the grammar.
 #pragma once
-#include <string>
 #include <string_view>
 
 #include "tools/progressive/incidence.h"
+#include "tools/progressive/packing.h"
 #include "tools/progressive/progressive_mesh.h"
 
 namespace glcast::progressive {
@@ -16,7 +16,7 @@ Incidence incidence_of(const ProgressiveMesh& mesh);
 
 /// The next `count` splits of a mesh, or fewer where they are large. Refines the mesh and its incidence past
 /// them; `count` becomes their number.
-std::string encode_splits(ProgressiveMesh& mesh, Incidence& incidence, std::size_t& count);
+Planes encode_splits(ProgressiveMesh& mesh, Incidence& incidence, std::size_t& count);
 
 /// What a stream says of the original.
 struct Totals {

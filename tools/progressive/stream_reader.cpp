@@ -220,6 +220,7 @@ ProgressiveFile read_progressive(const std::filesystem::path& path) {
         ProgressiveReader reader(in);
         std::size_t blocks = 0;
         while (reader.next()) ++blocks;
+        reader.mesh().shrink();
         const bool complete = reader.complete();
         return {reader.info(), std::move(reader.mesh()), blocks, complete};
     } catch (const std::exception& e) {

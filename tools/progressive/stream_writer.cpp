@@ -49,22 +49,22 @@ std::string header(const ProgressiveMesh& mesh, const ProgressiveInfo& info) {
 }
 
 /// At the base level.
-std::string base_mesh(const ProgressiveMesh& mesh) {
-    std::string bytes;
+Planes base_mesh(const ProgressiveMesh& mesh) {
+    Planes planes;
     const auto vertices = std::uint32_t(mesh.vertices(0)), triangles = std::uint32_t(mesh.triangles(0));
     std::vector<std::uint32_t> column;
     for (std::uint32_t v = 0; v < vertices; ++v)
         column.push_back(mesh.vertex_id(v) - (v ? mesh.vertex_id(v - 1) + 1 : 0));
-    put_planes(bytes, column);
+    put_planes(planes, column);
     column.clear();
     for (std::uint32_t t = 0; t < triangles; ++t)
         column.push_back(mesh.triangle_id(t) - (t ? mesh.triangle_id(t - 1) + 1 : 0));
-    put_planes(bytes, column);
+    put_planes(planes, column);
     for (std::size_t k = 0; k < 3; ++k) {
         column.clear();
         for (std::uint32_t t = 0; t < triangles; ++t)
             column.push_back(zigzag(mesh.triangle(t)[k] - (t ? mesh.triangle(t - 1)[k] : 0)));
-        put_planes(bytes, column);
+        put_planes(planes, column);
     }
     const auto put_vectors = [&](auto zero, auto value) {
         using Float = decltype(zero);
@@ -72,26 +72,26 @@ std::string base_mesh(const ProgressiveMesh& mesh) {
             std::vector<Bits<Float>> differences;
             for (std::uint32_t v = 0; v < vertices; ++v)
                 differences.push_back(difference<Float>(value(v)[k], v ? value(v - 1)[k] : zero));
-            put_planes(bytes, differences);
+            put_planes(planes, differences);
         }
     };
     put_vectors(0.0, [&](std::uint32_t v) { return mesh.vertex(v).position; });
     if (mesh.has_colours()) put_vectors(0.0f, [&](std::uint32_t v) { return mesh.vertex(v).colour; });
     if (mesh.has_normals()) put_vectors(0.0f, [&](std::uint32_t v) { return mesh.vertex(v).normal; });
-    return bytes;
+    return planes;
 }
 
 struct Chunk {
     std::size_t count = 0; ///< of splits
-    std::string bytes;
+    Planes planes;
 };
 
 /// With the header in front.
 std::string finished(const Chunk& chunk) {
-    const std::string data = packed(chunk.bytes);
+    const std::string data = packed(chunk.planes);
     std::string bytes;
     put(bytes, std::uint32_t(chunk.count));
-    put(bytes, std::uint64_t(chunk.bytes.size())), put(bytes, std::uint64_t(data.size()));
+    put(bytes, std::uint64_t(chunk.planes.bytes.size())), put(bytes, std::uint64_t(data.size()));
     put(bytes, checksum(data));
     put(bytes, checksum(bytes));
     return bytes + data;
@@ -105,7 +105,7 @@ void write_splits(OutputFile& file, ProgressiveMesh& mesh) {
         while (mesh.level() < mesh.splits() && chunks.size() < at_once) {
             Chunk& chunk = chunks.emplace_back();
             chunk.count = splits_of_next_block(mesh);
-            chunk.bytes = encode_splits(mesh, incidence, chunk.count);
+            chunk.planes = encode_splits(mesh, incidence, chunk.count);
         }
         std::vector<std::string> done(chunks.size());
         tbb::parallel_for(std::size_t(0), chunks.size(),

@@ -1,0 +1,138 @@
+// glcast mesh --pm, glcast refine and glcast info of a .glpm, run as a user runs them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/file/file_tools.h"
+#include "tests/file/sphere_capture.h"
+#include "tests/progressive/openmesh_reader.h"
+#include "tools/io/mesh_io.h"
+
+using namespace glcast;
+using namespace glcast::samples;
+using Json = nlohmann::json;
+
+namespace {
+
+Ran glcast_run(const std::string& arguments) { return run(GLCAST_COMMAND " " + arguments); }
+
+Json json_of(const std::string& arguments) {
+    const Ran ran = glcast_run(arguments + " --json 2>/dev/null");
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    return Json::parse(ran.output);
+}
+
+void expect_refused(const std::string& arguments, int status, const std::string& part) {
+    const Ran ran = glcast_run(arguments);
+    EXPECT_EQ(ran.status, status) << ran.output;
+    EXPECT_EQ(std::count(ran.output.begin(), ran.output.end(), '\n'), 1) << ran.output;
+    EXPECT_NE(ran.output.find(part), std::string::npos) << ran.output;
+}
+
+class Refine : public testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(write_nested(folder / "cast.exr", 48), "");
+        const Ran ran = glcast_run("mesh " + at("cast.exr") + " -o " + at("levels.ply") + " --pm " +
+                                   at("all.glpm") + " --triangles 4000,1000,300");
+        ASSERT_EQ(ran.status, 0) << ran.output;
+        ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("full.ply")).status, 0);
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    std::string bytes(const std::string& name) const { return read_text(folder / name); }
+
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(Refine, GivesTheFilesThatSimplifyingGave) {
+    for (const auto& [triangles, file] :
+         {std::pair{"4000", "levels.ply"}, {"1000", "levels.lod1.ply"}, {"300", "levels.lod2.ply"}}) {
+        const Json json =
+            json_of("refine " + at("all.glpm") + " -o " + at("x.ply") + " --triangles " + triangles);
+        EXPECT_TRUE(json["withinTarget"].get<bool>());
+        EXPECT_LE(json["mesh"]["triangles"].get<int>(), std::stoi(triangles));
+        EXPECT_TRUE(bytes("x.ply") == bytes(file)) << triangles;
+    }
+    EXPECT_EQ(glcast_run("refine " + at("all.glpm") + " -o " + at("x.ply")).status, 0);
+    EXPECT_TRUE(bytes("x.ply") == bytes("full.ply"));
+    EXPECT_EQ(json_of("refine " + at("all.glpm") + " -o " + at("x.glb") + " --edges 1500")["mesh"]["edges"],
+              1500);
+    EXPECT_EQ(read_mesh(folder / "x.glb").triangles.size(), 1000u);
+}
+
+TEST_F(Refine, MorphsBetweenLevels) {
+    const std::string command = "refine " + at("all.glpm") + " --triangles 400 --to 2000 -o ";
+    for (const char* fraction : {"0", "0.5", "1"})
+        ASSERT_EQ(
+            glcast_run(command + at(std::string("m") + fraction + ".ply") + " --fraction " + fraction).status,
+            0);
+    ASSERT_EQ(glcast_run("refine " + at("all.glpm") + " --triangles 2000 -o " + at("fine.ply")).status, 0);
+    EXPECT_TRUE(bytes("m1.ply") == bytes("fine.ply"));
+    const Mesh start = read_mesh(folder / "m0.ply"), middle = read_mesh(folder / "m0.5.ply"),
+               end = read_mesh(folder / "fine.ply");
+    ASSERT_EQ(start.triangles, end.triangles);
+    for (std::size_t v = 0; v < end.positions.size(); ++v)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(middle.positions[v][k], (start.positions[v][k] + end.positions[v][k]) / 2, 1e-6);
+}
+
+TEST_F(Refine, OpenMeshRefinesItsFormatToTheFullSurface) {
+    ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("x.glb") + " --pm " + at("all.pm")).status,
+              0);
+    const auto refined = test::refined_by_openmesh(bytes("all.pm"));
+    EXPECT_EQ(refined.base_triangles, 500u);
+    EXPECT_TRUE(refined.manifold);
+    const Mesh full = read_mesh(folder / "full.ply");
+    EXPECT_EQ(refined.triangles.size(), full.triangles.size());
+    EXPECT_EQ(refined.positions.size(), full.positions.size());
+}
+
+TEST_F(Refine, SaysThatAFileIsCutOff) {
+    const std::string whole = bytes("all.glpm");
+    write_text(folder / "cut.glpm", whole.substr(0, whole.size() / 2));
+    const Json json = json_of("refine " + at("cut.glpm") + " -o " + at("x.ply"));
+    EXPECT_FALSE(json["complete"].get<bool>());
+    const int triangles = json["mesh"]["triangles"];
+    EXPECT_TRUE(json["mesh"]["closedManifold"].get<bool>());
+    EXPECT_NE(glcast_run("refine " + at("cut.glpm") + " -o " + at("x.ply")).output.find("is cut off"),
+              std::string::npos);
+    ASSERT_EQ(glcast_run("refine " + at("all.glpm") + " -o " + at("y.ply") + " --triangles " +
+                         std::to_string(triangles))
+                  .status,
+              0);
+    EXPECT_TRUE(bytes("x.ply") == bytes("y.ply")) << "the coarser mesh is a level";
+    const Json info = json_of("info " + at("cut.glpm"));
+    EXPECT_FALSE(info["complete"].get<bool>());
+    EXPECT_EQ(info["finest"]["triangles"], triangles);
+    EXPECT_LT(info["splits"], info["splitsWhenComplete"]);
+    EXPECT_NE(glcast_run("info " + at("cut.glpm")).output.find("cut off"), std::string::npos);
+}
+
+TEST_F(Refine, RefusesInOneLine) {
+    write_text(folder / "short.glpm", bytes("all.glpm").substr(0, 100));
+    expect_refused("refine " + at("short.glpm") + " -o " + at("x.ply"), 1, "cut off before its base mesh");
+    expect_refused("refine " + at("full.ply") + " -o " + at("x.ply"), 1,
+                   "is no progressive mesh of glcast (.glpm)");
+    expect_refused("refine " + at("nowhere.glpm") + " -o " + at("x.ply"), 1, "No such file");
+    expect_refused("refine " + at("all.glpm") + " -o " + at("x.stl"), 1, "name it .glb, .obj, .ply or .off");
+    expect_refused("refine " + at("all.glpm") + " -o " + at("x.ply") + " --to 100 --fraction 0.5", 1,
+                   "--to needs");
+    expect_refused("refine " + at("all.glpm") + " -o " + at("x.ply") + " --edges 9 --ratio 0.5", 2,
+                   "excludes");
+    expect_refused("refine " + at("all.glpm") + " -o " + at("x.ply") +
+                       " --triangles 400 --to 300 --fraction 1",
+                   1, "finer level");
+    expect_refused("mesh " + at("cast.exr") + " -o " + at("x.ply") + " --pm " + at("x.obj"), 1,
+                   "name a progressive mesh");
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.ply"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.obj"));
+}
+
+TEST_F(Refine, BelowTheBaseMeshItIsTheBaseMeshAndSaysSo) {
+    const Json json = json_of("refine " + at("all.glpm") + " -o " + at("x.ply") + " --triangles 10");
+    EXPECT_FALSE(json["withinTarget"].get<bool>());
+    EXPECT_EQ(json["level"], 0);
+    EXPECT_LE(json["mesh"]["triangles"], 300);
+}
