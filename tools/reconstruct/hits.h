@@ -19,7 +19,7 @@ struct AxisHits {
     std::vector<float> depth;
     std::vector<std::uint32_t> plane;  ///< tangent plane, packed normal of unknown sign; 0 none (planes.h)
     std::vector<std::uint32_t> normal; ///< as drawn, packed; 0 none
-    std::vector<std::uint32_t> colour; ///< as drawn, pack_colour; the top two bits are free (captured_surface.h)
+    std::vector<std::uint32_t> colour; ///< as drawn, pack_colour; the top two bits: sides.h
 
     bool hit(std::size_t pixel) const { return start[pixel] != start[pixel + 1]; }
     /// First and last depth; no_depth and -no_depth where nothing was hit.
