@@ -25,11 +25,12 @@ struct Case {
     const char* name;
     double position, coordinate, tangent; ///< largest difference
 };
-// Half a step of 65535 over the torus's 2.5 along each axis; half a step of 65535; an angle of half a step of 127 along
-// each axis.
-constexpr Case cases[] = {{Compression::none, "plain", 1e-7, 0, 0},
-                          {Compression::quantize, "quantized", 2.5 / 65535 / 2 * 1.7321, 0.5001 / 65535, 0.0069},
-                          {Compression::meshopt, "meshopt", 2.5 / 65535 / 2 * 1.7321, 0.5001 / 65535, 0.0069}};
+// Half a step of 65535 over the torus's 2.5 along each axis; half a step of 65535; an angle of half a step of
+// 127 along each axis.
+constexpr Case cases[] = {
+    {Compression::none, "plain", 1e-7, 0, 0},
+    {Compression::quantize, "quantized", 2.5 / 65535 / 2 * 1.7321, 0.5001 / 65535, 0.0069},
+    {Compression::meshopt, "meshopt", 2.5 / 65535 / 2 * 1.7321, 0.5001 / 65535, 0.0069}};
 
 class Textured : public testing::TestWithParam<Case> {};
 
@@ -86,7 +87,8 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
 }
 
 TEST_P(Textured, CornersKeepTheirValues) {
-    if (GetParam().compression == Compression::meshopt) GTEST_SKIP() << "comes back in another order; by place, above";
+    if (GetParam().compression == Compression::meshopt)
+        GTEST_SKIP() << "comes back in another order; by place, above";
     const Folder folder;
     const Level level = textured_torus(30, 20);
     write_levels(folder / "t.glb", std::vector{level}, {.compression = GetParam().compression});
@@ -126,7 +128,8 @@ TEST(TexturedGlb, KhronosValidatorFindsNothing) {
     const std::vector bare{Level{torus(60, 40), "level 0"}, Level{torus(12, 8), "level 1"}};
     int k = 0;
     for (const Compression compression : all) {
-        write_levels(folder / ("t" + std::to_string(k) + ".glb"), levels, {.compression = compression, .split = true});
+        write_levels(folder / ("t" + std::to_string(k) + ".glb"), levels,
+                     {.compression = compression, .split = true});
         write_levels(folder / ("b" + std::to_string(k++) + ".glb"), bare, {.compression = compression});
     }
     ASSERT_EQ(folder.names().size(), 12u);
@@ -192,7 +195,8 @@ TEST(Extras, EveryErrorComesBack) {
     for (const Compression compression : all) {
         write_levels(folder / "t.glb", levels, {.compression = compression});
         const Level read = read_levels(folder / "t.glb").at(0);
-        for (const ErrorName& e : error_names) EXPECT_EQ(read.error.*e.value, levels[0].error.*e.value) << e.name;
+        for (const ErrorName& e : error_names)
+            EXPECT_EQ(read.error.*e.value, levels[0].error.*e.value) << e.name;
     }
 }
 

@@ -18,9 +18,11 @@ TEST(Three, ReadsWhatWeWrite) {
     const Level coarse{torus(12, 8), "level 1"};
     std::string files;
     for (const char* name : {"plain", "textured"})
-        for (const Compression compression : {Compression::none, Compression::quantize, Compression::meshopt}) {
+        for (const Compression compression :
+             {Compression::none, Compression::quantize, Compression::meshopt}) {
             const auto path = folder / (name + std::to_string(int(compression)) + ".glb");
-            write_levels(path, std::vector{*name == 'p' ? plain : textured, coarse}, {.compression = compression});
+            write_levels(path, std::vector{*name == 'p' ? plain : textured, coarse},
+                         {.compression = compression});
             files += " " + path.string();
         }
     const Ran ran = run(GLCAST_NODE " " GLCAST_THREE " chromium " GLCAST_MODULES + files + " 2>&1");

@@ -16,17 +16,20 @@ inline Texture torus_texture(std::uint32_t u, std::uint32_t v, int size, double 
     Texture texture;
     const auto corner = [&](std::uint32_t i, std::uint32_t j) {
         const double a = 2 * M_PI * i / u;
-        return std::pair(glm::vec2(double(i) / u, double(j) / v), glm::vec4(-std::sin(a), std::cos(a), 0, -1));
+        return std::pair(glm::vec2(double(i) / u, double(j) / v),
+                         glm::vec4(-std::sin(a), std::cos(a), 0, -1));
     };
     for (std::uint32_t i = 0; i < u; ++i)
         for (std::uint32_t j = 0; j < v; ++j)
-            for (const auto& corners : {std::array<std::array<std::uint32_t, 2>, 3>{{{0, 0}, {1, 0}, {1, 1}}},
-                                        std::array<std::array<std::uint32_t, 2>, 3>{{{0, 0}, {1, 1}, {0, 1}}}}) {
+            for (const auto& corners :
+                 {std::array<std::array<std::uint32_t, 2>, 3>{{{0, 0}, {1, 0}, {1, 1}}},
+                  std::array<std::array<std::uint32_t, 2>, 3>{{{0, 0}, {1, 1}, {0, 1}}}}) {
                 texture.coordinates.emplace_back();
                 texture.tangents.emplace_back();
                 std::array<glm::vec2, 3> at;
                 for (int k = 0; k < 3; ++k)
-                    std::tie(at[k], texture.tangents.back()[k]) = corner(i + corners[k][0], j + corners[k][1]);
+                    std::tie(at[k], texture.tangents.back()[k]) =
+                        corner(i + corners[k][0], j + corners[k][1]);
                 texture.coordinates.back() = at;
             }
     texture.colour.width = texture.colour.height = texture.normal.width = texture.normal.height = size;

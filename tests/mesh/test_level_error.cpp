@@ -36,7 +36,8 @@ Level sheet(double thickness) {
 } // namespace
 
 TEST(LevelErrorTest, ConcentricSpheres) {
-    const Level inner = level_of(test::sphere(1, 5), {0.25f, 0.5f, 0.5f}), outer = level_of(test::sphere(1.25, 5), {0.25f, 0.5f, 0.75f});
+    const Level inner = level_of(test::sphere(1, 5), {0.25f, 0.5f, 0.5f}),
+                outer = level_of(test::sphere(1.25, 5), {0.25f, 0.5f, 0.75f});
     const LevelError e = measure_level(inner, outer);
     EXPECT_NEAR(e.mean, 0.25, 2e-3);
     EXPECT_NEAR(e.p999, 0.25, 2e-3);
@@ -65,7 +66,8 @@ TEST(LevelErrorTest, TheMaximumIsThatOfAnyVertex) {
 }
 
 TEST(LevelErrorTest, TheSidesOfASheetAreNotMixedUp) {
-    const Level thick = sheet(2e-3), thin = sheet(0.8e-3); // its upper side is nearest to the lower one of the other
+    const Level thick = sheet(2e-3),
+                thin = sheet(0.8e-3); // its upper side is nearest to the lower one of the other
     const LevelError e = measure_level(thick, thin);
     EXPECT_NEAR(e.max, 1.2e-3, 1e-6);
     EXPECT_LT(e.colour_mean, 0.01);

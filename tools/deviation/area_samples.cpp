@@ -33,7 +33,9 @@ std::vector<AreaSample> area_samples(const Mesh& mesh, std::size_t samples) {
                    v = std::fmod(0.5 + k * 0.5698402909980532, 1);
             if (u + v > 1) u = 1 - u, v = 1 - v;
             const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-            points.push_back({a + u * (b - a) + v * (c - a), size > 0 ? normal / size : glm::dvec3(0), i,
+            points.push_back({a + u * (b - a) + v * (c - a),
+                              size > 0 ? normal / size : glm::dvec3(0),
+                              i,
                               {1 - u - v, u, v}});
         }
     }

@@ -29,8 +29,9 @@ struct Probe {
 std::vector<Probe> probes(const Level& level) {
     std::vector<Probe> all;
     for (const AreaSample& s : area_samples(level.mesh, points_a_side)) all.push_back({s, {}});
-    tbb::parallel_for(std::size_t(0), all.size(),
-                      [&](std::size_t i) { all[i].shown = shown(level, all[i].at.triangle, all[i].at.weights); });
+    tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
+        all[i].shown = shown(level, all[i].at.triangle, all[i].at.weights);
+    });
     return all;
 }
 
@@ -49,22 +50,26 @@ Shown shown_near(const Level& level, const glm::dvec3& point, std::uint32_t tria
     return shown(level, triangle, nearest_in_triangle(point, p[t[0]], p[t[1]], p[t[2]]).weights);
 }
 
-Differences differences(const Probe& probe, const Level& other, const SurfaceIndex& index, std::uint32_t& near) {
+Differences differences(const Probe& probe, const Level& other, const SurfaceIndex& index,
+                        std::uint32_t& near) {
     const AreaSample& at = probe.at;
     const SurfaceIndex::Nearest nearest = index.nearest(at.position, near);
     near = nearest.triangle;
     const std::uint32_t facing = index.nearest_facing(at.position, at.normal, nearest).triangle;
     const Shown there = shown_near(other, at.position, facing);
     Differences d{float(nearest.distance), degrees_between(probe.shown.normal, there.normal), 0};
-    for (int k = 0; k < 3; ++k) d.colour = std::max(d.colour, std::abs(probe.shown.colour[k] - there.colour[k]));
+    for (int k = 0; k < 3; ++k)
+        d.colour = std::max(d.colour, std::abs(probe.shown.colour[k] - there.colour[k]));
     return d;
 }
 
-std::vector<Differences> differences(const std::vector<Probe>& from, const Level& to, const SurfaceIndex& index) {
+std::vector<Differences> differences(const std::vector<Probe>& from, const Level& to,
+                                     const SurfaceIndex& index) {
     std::vector<Differences> all(from.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), piece), [&](const auto& range) {
         std::uint32_t near = index.nearest(from[range.begin()].at.position).triangle;
-        for (std::size_t i = range.begin(); i < range.end(); ++i) all[i] = differences(from[i], to, index, near);
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            all[i] = differences(from[i], to, index, near);
     });
     return all;
 }
@@ -74,7 +79,8 @@ class Recent {
   public:
     explicit Recent(std::uint32_t first) { triangles.fill(first); }
     void add(std::uint32_t triangle) { triangles[next++ % triangles.size()] = triangle; }
-    SurfaceIndex::Nearest nearest(const SurfaceIndex& index, const glm::dvec3& point, double good_enough) const {
+    SurfaceIndex::Nearest nearest(const SurfaceIndex& index, const glm::dvec3& point,
+                                  double good_enough) const {
         SurfaceIndex::Nearest best{INFINITY, triangles[0]};
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             const std::uint32_t t = triangles[(next - 1 - k) % triangles.size()];
@@ -89,8 +95,8 @@ class Recent {
     std::size_t next = triangles.size();
 };
 
-/// The largest distance of a vertex from the surface, or `least` where that is larger. A vertex near a triangle of
-/// one before it cannot be the farthest, and is not searched for: most are.
+/// The largest distance of a vertex from the surface, or `least` where that is larger. A vertex near a
+/// triangle of one before it cannot be the farthest, and is not searched for: most are.
 double farthest(const std::vector<glm::dvec3>& vertices, const SurfaceIndex& index, double least) {
     std::atomic<double> largest = least;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), piece), [&](const auto& range) {
@@ -101,7 +107,8 @@ double farthest(const std::vector<glm::dvec3>& vertices, const SurfaceIndex& ind
             if (bound.distance <= known) continue;
             const SurfaceIndex::Nearest found = index.nearest(vertices[v], bound.triangle);
             recent.add(found.triangle);
-            while (found.distance > known && !largest.compare_exchange_weak(known, found.distance)) {}
+            while (found.distance > known && !largest.compare_exchange_weak(known, found.distance)) {
+            }
         }
     });
     return largest;
@@ -131,13 +138,17 @@ double largest(const std::vector<Differences>& all) {
 } // namespace
 
 struct LevelMeter::Impl {
-    explicit Impl(const Level& full) : full(full), index(full.mesh, SurfaceIndex::Tree::quick), on_full(probes(full)) {}
+    explicit Impl(const Level& full)
+        : full(full), index(full.mesh, SurfaceIndex::Tree::quick), on_full(probes(full)) {}
 
     LevelError measure(const Level& level) const {
         const SurfaceIndex level_index(level.mesh);
-        const auto there = differences(on_full, level, level_index), back = differences(probes(level), full, index);
+        const auto there = differences(on_full, level, level_index),
+                   back = differences(probes(level), full, index);
         const auto larger = [&](double (*of)(const std::vector<Differences>&, float Differences::*),
-                                float Differences::*what) { return std::max(of(there, what), of(back, what)); };
+                                float Differences::*what) {
+            return std::max(of(there, what), of(back, what));
+        };
         LevelError error;
         error.mean = larger(mean, &Differences::distance);
         error.p999 = larger(all_but_a_thousandth, &Differences::distance);

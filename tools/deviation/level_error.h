@@ -1,4 +1,5 @@
-// The error certificate of a level of detail: how far it is from the full surface, and how it looks beside it.
+// The error certificate of a level of detail: how far it is from the full surface, and how it looks beside
+// it.
 #pragma once
 #include <memory>
 #include <span>
@@ -9,11 +10,12 @@ namespace glcast {
 
 /// Measures levels against one full surface, of which one tree is built. `full` must outlive this, unchanged.
 ///
-/// Mean and 99.9 % are over 200,000 points spread evenly by area, on each of the two surfaces in turn, the larger of the
-/// two; so are those of normals and colours, which are compared with the nearest point that faces the same way, so that
-/// the sides of a thin sheet do not get mixed up. The maximum is over these points and all vertices of both surfaces.
-/// Hidden parts count as all others. Colours are left at 0 where one of the two has none. The share of unsupported area
-/// is that of `full`. The same levels give the same numbers, bit for bit, on any number of threads.
+/// Mean and 99.9 % are over 200,000 points spread evenly by area, on each of the two surfaces in turn, the
+/// larger of the two; so are those of normals and colours, which are compared with the nearest point that
+/// faces the same way, so that the sides of a thin sheet do not get mixed up. The maximum is over these
+/// points and all vertices of both surfaces. Hidden parts count as all others. Colours are left at 0 where
+/// one of the two has none. The share of unsupported area is that of `full`. The same levels give the same
+/// numbers, bit for bit, on any number of threads.
 class LevelMeter {
   public:
     explicit LevelMeter(const Level& full); ///< Throws std::runtime_error on a mesh without triangles.

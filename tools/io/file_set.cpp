@@ -21,8 +21,8 @@ std::vector<std::filesystem::path> FileSet::commit() {
     return names;
 }
 
-bool write_pictures(FileSet& files, const std::filesystem::path& path, const Texture& texture, bool with_normal,
-                    PictureNames& names) {
+bool write_pictures(FileSet& files, const std::filesystem::path& path, const Texture& texture,
+                    bool with_normal, PictureNames& names) {
     const auto write = [&](const char* what, const Picture& picture, std::string& name) {
         name = path.stem().string() + what + ".png";
         const std::string bytes = png_bytes(picture);

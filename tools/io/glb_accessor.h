@@ -11,8 +11,7 @@
 
 namespace glcast::format {
 
-template <class T>
-const T& at(const std::vector<T>& items, int index, const char* what) {
+template <class T> const T& at(const std::vector<T>& items, int index, const char* what) {
     if (index < 0 || std::size_t(index) >= items.size())
         refuse(std::string("refers to ") + what + " that is not there");
     return items[index];

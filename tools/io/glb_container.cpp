@@ -16,7 +16,9 @@ std::uint32_t word(std::string_view file, std::size_t at) {
     return value;
 }
 
-void add_word(std::string& file, std::uint32_t value) { file.append(reinterpret_cast<const char*>(&value), 4); }
+void add_word(std::string& file, std::uint32_t value) {
+    file.append(reinterpret_cast<const char*>(&value), 4);
+}
 
 void add_chunk(std::string& file, std::uint32_t kind, std::string_view data, char filler) {
     const std::size_t padding = (4 - data.size() % 4) % 4;

@@ -53,17 +53,20 @@ void TextureReader::add(const tinygltf::Primitive& primitive, const Mesh& mesh, 
     if (material >= 0 && material != primitive.material) return;
     material = primitive.material;
     const auto& colour = at(model.materials, material, "a material").pbrMetallicRoughness.baseColorTexture;
-    if (colour.index < 0 || colour.texCoord != 0 || colour.extensions.contains("KHR_texture_transform")) return;
+    if (colour.index < 0 || colour.texCoord != 0 || colour.extensions.contains("KHR_texture_transform"))
+        return;
     if (texture.coordinates.size() != first_triangle) return; // one before had none
     whole = true;
     add_corners(primitive, mesh, first_vertex, first_triangle, turn);
 }
 
-void TextureReader::add_corners(const tinygltf::Primitive& primitive, const Mesh& mesh, std::size_t first_vertex,
-                                std::size_t first_triangle, const glm::dmat3& turn) {
+void TextureReader::add_corners(const tinygltf::Primitive& primitive, const Mesh& mesh,
+                                std::size_t first_vertex, std::size_t first_triangle,
+                                const glm::dmat3& turn) {
     const Elements places(model, attribute(primitive, "TEXCOORD_0"));
     std::optional<Elements> directions;
-    if (const int accessor = attribute(primitive, "TANGENT"); accessor >= 0) directions.emplace(model, accessor);
+    if (const int accessor = attribute(primitive, "TANGENT"); accessor >= 0)
+        directions.emplace(model, accessor);
     if (places.components() < 2 || (directions && directions->components() < 4))
         refuse("has an attribute of too few components");
     tangents = tangents && directions;
@@ -101,7 +104,8 @@ Picture TextureReader::picture(int index) const {
 }
 
 void TextureReader::finish(Level& level) {
-    if (!whole || texture.coordinates.empty() || texture.coordinates.size() != level.mesh.triangles.size()) return;
+    if (!whole || texture.coordinates.empty() || texture.coordinates.size() != level.mesh.triangles.size())
+        return;
     const auto& described = model.materials[std::size_t(material)];
     texture.colour = picture(described.pbrMetallicRoughness.baseColorTexture.index);
     if (texture.colour.rgb.empty()) return;
@@ -113,8 +117,8 @@ void TextureReader::finish(Level& level) {
     if (!tangents)
         for (std::size_t t = 0; t < texture.tangents.size(); ++t)
             for (int k = 0; k < 3; ++k)
-                texture.tangents[t][k] =
-                    some_tangent(have_normals ? level.mesh.normals[level.mesh.triangles[t][k]] : glm::vec3(0, 0, 1));
+                texture.tangents[t][k] = some_tangent(
+                    have_normals ? level.mesh.normals[level.mesh.triangles[t][k]] : glm::vec3(0, 0, 1));
     level.texture = std::move(texture);
     take_colours(level);
 }

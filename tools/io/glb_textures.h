@@ -8,16 +8,16 @@
 
 namespace glcast::format {
 
-/// A level has a texture when all its primitives have coordinates and one material with a base colour texture, as we
-/// write them. Colours of vertices, where there are none, are then taken from it.
+/// A level has a texture when all its primitives have coordinates and one material with a base colour
+/// texture, as we write them. Colours of vertices, where there are none, are then taken from it.
 class TextureReader {
   public:
     explicit TextureReader(const tinygltf::Model& model) : model(model) {}
 
-    /// The primitive's vertices begin at `first_vertex` of the mesh, its triangles at `first_triangle`. To be called
-    /// for every primitive.
-    void add(const tinygltf::Primitive& primitive, const Mesh& mesh, std::size_t first_vertex, std::size_t first_triangle,
-             const glm::dmat3& turn);
+    /// The primitive's vertices begin at `first_vertex` of the mesh, its triangles at `first_triangle`. To be
+    /// called for every primitive.
+    void add(const tinygltf::Primitive& primitive, const Mesh& mesh, std::size_t first_vertex,
+             std::size_t first_triangle, const glm::dmat3& turn);
     /// Throws std::runtime_error on a damaged picture.
     void finish(Level& level);
 

@@ -67,8 +67,8 @@ class GlbBuilder {
     int add_accessor(int view, int type, int component, std::size_t count, bool normalized = false);
     template <class T>
     int add_attribute(const std::vector<T>& data, int type, int component, bool normalized = false) {
-        return add_accessor(add_view(data, TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(T)), type, component, data.size(),
-                            normalized);
+        return add_accessor(add_view(data, TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(T)), type, component,
+                            data.size(), normalized);
     }
     void add_bounds(int accessor, const glm::dvec3& lo, const glm::dvec3& hi);
     int add_positions(const Mesh& mesh, const SeamSplit& split);
@@ -80,7 +80,8 @@ class GlbBuilder {
     int add_image(const std::string& png, const std::string& name);
     int plain_material();
     int textured_material(const std::string& name, const Pngs& pngs);
-    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split, const Pngs& pngs);
+    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split,
+                                     const Pngs& pngs);
 
     glm::dvec3 origin;
     std::optional<PositionGrid> grid;
@@ -170,7 +171,9 @@ int GlbBuilder::add_colours(const Mesh& mesh, const SeamSplit& split) {
     data.reserve(split.vertices(mesh));
     for (std::size_t v = 0; v < split.vertices(mesh); ++v) {
         const glm::vec3& c = mesh.colours[split.original(mesh, v)];
-        const auto linear = [&](int k) { return unsigned_short(to_linear(grid ? display_byte(c[k]) : c[k])); };
+        const auto linear = [&](int k) {
+            return unsigned_short(to_linear(grid ? display_byte(c[k]) : c[k]));
+        };
         data.push_back({linear(0), linear(1), linear(2), 65535});
     }
     return add_attribute(data, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
@@ -180,7 +183,8 @@ int GlbBuilder::add_coordinates(const SeamSplit& split) {
     if (!grid) return add_attribute(split.coordinates, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
     std::vector<std::array<std::uint16_t, 2>> data;
     data.reserve(split.coordinates.size());
-    for (const glm::vec2& at : split.coordinates) data.push_back({unsigned_short(at.x), unsigned_short(at.y)});
+    for (const glm::vec2& at : split.coordinates)
+        data.push_back({unsigned_short(at.x), unsigned_short(at.y)});
     return add_attribute(data, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
@@ -194,8 +198,8 @@ int GlbBuilder::add_tangents(const SeamSplit& split) {
 
 int GlbBuilder::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices, int target) {
     if (vertices > 65535)
-        return add_accessor(add_view(indices, target), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                            indices.size());
+        return add_accessor(add_view(indices, target), TINYGLTF_TYPE_SCALAR,
+                            TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, indices.size());
     const std::vector<std::uint16_t> data(indices.begin(), indices.end());
     return add_accessor(add_view(data, target), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                         indices.size());
@@ -243,8 +247,8 @@ int GlbBuilder::textured_material(const std::string& name, const Pngs& pngs) {
     return static_cast<int>(model.materials.size()) - 1;
 }
 
-/// A textured one has no COLOR_0: viewers would multiply the texture by it. `mesh`: the level's vertices, in whatever
-/// order the split is.
+/// A textured one has no COLOR_0: viewers would multiply the texture by it. `mesh`: the level's vertices, in
+/// whatever order the split is.
 tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split,
                                              const Pngs& pngs) {
     tinygltf::Primitive primitive;
@@ -323,7 +327,8 @@ std::string glb_bytes(std::span<const Level> levels, Compression compression, co
     return compression == Compression::meshopt ? meshopt_compressed(bytes) : bytes;
 }
 
-bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
+bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
+               const PositionGrid* grid) {
     const std::string bytes = glb_bytes(levels, compression, grid);
     return file.append(bytes.data(), bytes.size());
 }

@@ -44,7 +44,8 @@ std::size_t size_in(const Json& object, const char* name, std::size_t otherwise 
 std::string_view part(std::string_view bytes, const Json& view) {
     const std::size_t offset = size_in(view, "byteOffset"), length = size_in(view, "byteLength");
     if (size_in(view, "buffer") != 0) refuse("refers to a buffer that is not there");
-    if (offset > bytes.size() || length > bytes.size() - offset) refuse("has a buffer view beyond its buffer");
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        refuse("has a buffer view beyond its buffer");
     return bytes.substr(offset, length);
 }
 
@@ -52,7 +53,8 @@ void align(std::string& bytes) { bytes.resize((bytes.size() + 3) / 4 * 4); }
 
 std::vector<std::uint32_t> wide_indices(std::string_view data, std::size_t stride) {
     std::vector<std::uint32_t> indices(data.size() / stride);
-    for (std::size_t k = 0; k < indices.size(); ++k) std::memcpy(&indices[k], data.data() + k * stride, stride);
+    for (std::size_t k = 0; k < indices.size(); ++k)
+        std::memcpy(&indices[k], data.data() + k * stride, stride);
     return indices;
 }
 
@@ -140,7 +142,8 @@ std::string decoded(std::string_view codes, const Json& how) {
     const Mode mode = mode_of(how.value("mode", ""));
     const FilterName& filter = filter_of(how.value("filter", "NONE"));
     if (!fits(mode, filter, count, stride)) refuse("is damaged: meshopt compression of odd sizes");
-    if (count > (codes.size() * best_ratio + 65536) / stride) refuse("is damaged: more vertices than its bytes can hold");
+    if (count > (codes.size() * best_ratio + 65536) / stride)
+        refuse("is damaged: more vertices than its bytes can hold");
     std::string data(count * stride, '\0');
     const auto* from = reinterpret_cast<const unsigned char*>(codes.data());
     int failed = 0;
@@ -181,7 +184,8 @@ Mesh reorder_for_drawing(const Mesh& mesh, SeamSplit& split) {
     for (Triangle& t : split.triangles)
         for (std::uint32_t& v : t) v = becomes[v];
     const SeamSplit before = split;
-    for (std::size_t v = own; v < all; ++v) split.originals[v - own] = becomes[before.originals[order[v] - own]];
+    for (std::size_t v = own; v < all; ++v)
+        split.originals[v - own] = becomes[before.originals[order[v] - own]];
     for (std::size_t v = 0; v < split.coordinates.size(); ++v) {
         split.coordinates[v] = before.coordinates[order[v]];
         split.tangents[v] = before.tangents[order[v]];
@@ -211,11 +215,14 @@ std::string meshopt_compressed(std::string_view file) {
             continue;
         }
         const auto [mode, count, stride] = planned[k];
-        const Codes codes =
-            mode == Mode::attributes ? encoded_vertices(data, count, stride) : encoded_indices(data, mode, stride);
-        view["extensions"][meshopt_extension] = {{"buffer", 0},           {"byteOffset", bytes.size()},
-                                                 {"byteLength", codes.size()}, {"byteStride", stride},
-                                                 {"count", count},        {"mode", name_of(mode)}};
+        const Codes codes = mode == Mode::attributes ? encoded_vertices(data, count, stride)
+                                                     : encoded_indices(data, mode, stride);
+        view["extensions"][meshopt_extension] = {{"buffer", 0},
+                                                 {"byteOffset", bytes.size()},
+                                                 {"byteLength", codes.size()},
+                                                 {"byteStride", stride},
+                                                 {"count", count},
+                                                 {"mode", name_of(mode)}};
         bytes.append(reinterpret_cast<const char*>(codes.data()), codes.size());
         view["buffer"] = 1;
         view["byteOffset"] = whole;
@@ -223,8 +230,9 @@ std::string meshopt_compressed(std::string_view file) {
         whole = (whole + count * stride + 3) / 4 * 4;
     }
     align(bytes);
-    gltf["buffers"] = Json::array({{{"byteLength", bytes.size()}},
-                                   {{"byteLength", whole}, {"extensions", {{meshopt_extension, {{"fallback", true}}}}}}});
+    gltf["buffers"] =
+        Json::array({{{"byteLength", bytes.size()}},
+                     {{"byteLength", whole}, {"extensions", {{meshopt_extension, {{"fallback", true}}}}}}});
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) gltf[list].push_back(meshopt_extension);
     return glb_file(gltf, bytes);
 }
@@ -247,7 +255,8 @@ std::string meshopt_decompressed(const GlbChunks& chunks) try {
     }
     align(bytes);
     gltf["buffers"] = Json::array({{{"byteLength", bytes.size()}}});
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) drop_name(gltf, list, meshopt_extension);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        drop_name(gltf, list, meshopt_extension);
     return glb_file(gltf, bytes);
 } catch (const Json::exception&) {
     refuse("is damaged: its compression is not described as it must be");

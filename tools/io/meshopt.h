@@ -10,16 +10,17 @@ namespace glcast::format {
 
 inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 
-/// Triangles in an order that uses each vertex soon again, vertices in the order of their use: faster to draw, and
-/// smaller when compressed. The vertices of the mesh stay before the copies. Returns the mesh's vertices (and no
-/// triangles) in their new order.
+/// Triangles in an order that uses each vertex soon again, vertices in the order of their use: faster to
+/// draw, and smaller when compressed. The vertices of the mesh stay before the copies. Returns the mesh's
+/// vertices (and no triangles) in their new order.
 Mesh reorder_for_drawing(const Mesh& mesh, SeamSplit& split);
 
-/// The same .glb with its vertices and indices compressed, and no uncompressed copy beside them: the extension is required.
+/// The same .glb with its vertices and indices compressed, and no uncompressed copy beside them: the
+/// extension is required.
 std::string meshopt_compressed(std::string_view file);
 
-/// The other way; needs what the extension's specification says. Throws std::runtime_error on damage, and before it
-/// takes more memory than the compressed bytes can explain.
+/// The other way; needs what the extension's specification says. Throws std::runtime_error on damage, and
+/// before it takes more memory than the compressed bytes can explain.
 std::string meshopt_decompressed(const GlbChunks& chunks);
 
 } // namespace glcast::format

@@ -44,7 +44,8 @@ const std::vector<std::array<int, 3>>& ways_out() {
             for (int y = -farthest; y <= farthest; ++y)
                 for (int z = -farthest; z <= farthest; ++z) all.push_back({x, y, z});
         const auto square = [](const auto& w) { return w[0] * w[0] + w[1] * w[1] + w[2] * w[2]; };
-        std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return square(a) < square(b); });
+        std::stable_sort(all.begin(), all.end(),
+                         [&](const auto& a, const auto& b) { return square(a) < square(b); });
         return all;
     }();
     return ways;
@@ -103,8 +104,12 @@ glm::dvec3 position(const GridPoint& p, const PositionGrid& grid) {
     return grid.lo + glm::dvec3(p[0], p[1], p[2]) * grid.step;
 }
 
-std::int8_t signed_byte(float value) { return std::int8_t(std::lround(std::clamp(value, -1.0f, 1.0f) * 127)); }
-std::uint16_t unsigned_short(float value) { return std::uint16_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 65535)); }
+std::int8_t signed_byte(float value) {
+    return std::int8_t(std::lround(std::clamp(value, -1.0f, 1.0f) * 127));
+}
+std::uint16_t unsigned_short(float value) {
+    return std::uint16_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 65535));
+}
 float display_byte(float value) { return float(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)) / 255.0f; }
 
 std::array<std::int8_t, 4> tangent_bytes(const glm::vec4& t) {
@@ -114,16 +119,17 @@ std::array<std::int8_t, 4> tangent_bytes(const glm::vec4& t) {
 void round_level(Level& level, const PositionGrid& grid) {
     const std::vector<GridPoint> points = on_grid(level.mesh, grid);
     for (std::size_t v = 0; v < points.size(); ++v) level.mesh.positions[v] = position(points[v], grid);
-    for (glm::vec3& n : level.mesh.normals) n = direction({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z)}, n);
+    for (glm::vec3& n : level.mesh.normals)
+        n = direction({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z)}, n);
     for (glm::vec3& c : level.mesh.colours)
         for (int k = 0; k < 3; ++k) c[k] = display_byte(c[k]);
     for (auto& corners : level.texture.coordinates)
-        for (glm::vec2& at : corners)
-            at = glm::vec2(unsigned_short(at.x), unsigned_short(at.y)) / 65535.0f;
+        for (glm::vec2& at : corners) at = glm::vec2(unsigned_short(at.x), unsigned_short(at.y)) / 65535.0f;
     for (auto& corners : level.texture.tangents)
         for (glm::vec4& tangent : corners) {
             const auto bytes = tangent_bytes(tangent);
-            tangent = glm::vec4(direction({bytes[0], bytes[1], bytes[2]}, glm::vec3(tangent)), bytes[3] < 0 ? -1 : 1);
+            tangent = glm::vec4(direction({bytes[0], bytes[1], bytes[2]}, glm::vec3(tangent)),
+                                bytes[3] < 0 ? -1 : 1);
         }
 }
 

@@ -18,7 +18,8 @@ class Splitter {
         next.resize(count, none);
     }
 
-    /// The vertex, or the copy of it, with the coordinates and the tangent of a corner; made when there is none.
+    /// The vertex, or the copy of it, with the coordinates and the tangent of a corner; made when there is
+    /// none.
     std::uint32_t vertex_for(std::uint32_t vertex, std::size_t triangle, int corner) {
         const glm::vec2& at = texture.coordinates[triangle][corner];
         const glm::vec4& tangent = texture.tangents[triangle][corner];

@@ -32,7 +32,8 @@ Picture decode_picture(std::string_view bytes) {
     int channels = 0;
     if (!stbi_info_from_memory(data, size, &picture.width, &picture.height, &channels))
         throw std::runtime_error("a texture is no PNG or JPEG");
-    if (picture.width < 1 || picture.height < 1 || picture.width > largest_picture || picture.height > largest_picture)
+    if (picture.width < 1 || picture.height < 1 || picture.width > largest_picture ||
+        picture.height > largest_picture)
         throw std::runtime_error("a texture is too large");
     const std::size_t pixels = std::size_t(picture.width) * std::size_t(picture.height);
     // A bit a pixel is the least that a PNG can take before it is deflated.

@@ -24,7 +24,8 @@ void add_chunk(std::string& png, const char* name, std::string_view data) {
     add_word(png, std::uint32_t(data.size()));
     const std::size_t from = png.size();
     png.append(name).append(data);
-    add_word(png, std::uint32_t(crc32_z(0, reinterpret_cast<const Bytef*>(png.data()) + from, png.size() - from)));
+    add_word(png,
+             std::uint32_t(crc32_z(0, reinterpret_cast<const Bytef*>(png.data()) + from, png.size() - from)));
 }
 
 std::uint8_t paeth(int left, int up, int corner) {
