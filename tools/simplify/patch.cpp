@@ -126,7 +126,7 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
             continue;
         }
         if (float(to.cost) > most) continue;
-        to.point = keep_volume(c, to.point);
+        if (keeps_volume) to.point = keep_volume(c, to.point);
         if (allowed(c, to.point)) {
             collapse(c, to, step);
             return true;

@@ -42,6 +42,7 @@ template <int N> class Patch {
     std::vector<char> locked;
     std::vector<Quadric<N>> quadrics;
     std::uint32_t ghost = none; ///< the vertex at infinity
+    bool keeps_volume = true;   ///< collapses keep the body's volume
 
     /// Once the above are filled: `corners` names three vertices a triangle.
     void connect(std::vector<std::uint32_t> corners);
