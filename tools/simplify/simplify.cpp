@@ -62,6 +62,11 @@ CollapseLog finished(Collapser::Log&& from, const SurfaceWalk& walk) {
     return std::move(from.collapses);
 }
 
+AttributeWeights weights_of(const SimplifyOptions& options) {
+    constexpr double fitted = 0.0002, as_collapsed = 0.0005;
+    return {options.colour_weight, options.normal_weight.value_or(options.refit ? fitted : as_collapsed)};
+}
+
 } // namespace
 
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
@@ -88,8 +93,8 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
             continue;
         }
         if (!collapser)
-            collapser = Collapser::make(mesh, {have.triangles, have.edges},
-                                        {options.colour_weight, options.normal_weight}, log != nullptr);
+            collapser =
+                Collapser::make(mesh, {have.triangles, have.edges}, weights_of(options), log != nullptr);
         collapser->reduce_to(limits[level]);
         Collapser::Remainder remainder = collapser->remainder();
         if (options.refit) refit(remainder, mesh);

@@ -1,6 +1,7 @@
 // Quadric edge collapse (Garland and Heckbert 1997; colours and normals: Hoppe 1999), and a fit of what is
 // left.
 #pragma once
+#include <optional>
 #include <span>
 
 #include "tools/mesh/mesh.h"
@@ -20,8 +21,10 @@ struct SimplifyOptions {
     /// half the error. Without, levels are what a progressive mesh holds.
     bool refit = true;
     /// How far a surface may as well be off as have a colour (channel, 0..1) or a normal (component) that is
-    /// off by 1: shares of the longest side of the mesh's box. 0: not looked at.
-    double colour_weight = 0.001, normal_weight = 0.0002;
+    /// off by 1: shares of the longest side of the mesh's box. 0: not looked at. A normal's, where it is not
+    /// given: what leaves the least error, with and without the fit (docs/method.md, "Levels").
+    double colour_weight = 0.001;
+    std::optional<double> normal_weight = {};
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
