@@ -1,9 +1,7 @@
 // The glcast command, run as a user runs it: exit codes, what goes where, and what is left behind.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "tests/file/file_tools.h"
+#include "tests/file/command_line.h"
 #include "tests/file/sphere_capture.h"
 #include "tools/io/mesh_io.h"
 #include "tools/mesh/check.h"
@@ -13,22 +11,6 @@ using namespace glcast::samples;
 using Json = nlohmann::json;
 
 namespace {
-
-Ran glcast_run(const std::string& arguments) { return run(GLCAST_COMMAND " " + arguments); }
-
-/// Standard output alone, as JSON.
-Json json_of(const std::string& arguments) {
-    const Ran ran = glcast_run(arguments + " --json 2>/dev/null");
-    EXPECT_EQ(ran.status, 0) << ran.output;
-    return Json::parse(ran.output);
-}
-
-void expect_one_line(const Ran& ran, int status, const std::string& part) {
-    EXPECT_EQ(ran.status, status) << ran.output;
-    EXPECT_TRUE(ran.output.starts_with("glcast: ")) << ran.output;
-    EXPECT_EQ(std::count(ran.output.begin(), ran.output.end(), '\n'), 1) << ran.output;
-    EXPECT_NE(ran.output.find(part), std::string::npos) << ran.output;
-}
 
 class Command : public testing::Test {
   protected:
@@ -143,4 +125,30 @@ TEST_F(Command, Usage) {
     EXPECT_EQ(glcast_run("--help").status, 0);
     EXPECT_EQ(glcast_run("mesh --help").status, 0);
     EXPECT_EQ(glcast_run("--version").output, "glcast " GLCAST_VERSION "\n");
+}
+
+TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {
+    ASSERT_EQ(write_sphere(file("s.exr"), 24), ""); // small: each limit is a search
+    const double sample = 3.0 / 24, diagonal = 2 * 1.2 * std::sqrt(3.0); // of the sphere's box
+    const auto level_of = [&](const std::string& limit) {
+        const Json made = json_of("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + limit);
+        EXPECT_EQ(made["levels"].size(), 2u) << limit;
+        return made["levels"][1];
+    };
+    const Json half = level_of("0.5"), coarse = level_of("1");
+    EXPECT_LE(half["maxErrorSamples"], 0.5);
+    EXPECT_LE(coarse["maxErrorSamples"], 1);
+    EXPECT_LT(coarse["triangles"], half["triangles"]);
+    EXPECT_GT(coarse["triangles"], 8);
+    // A fifth fewer triangles are too few.
+    const int fewer = half["triangles"].get<int>() * 4 / 5;
+    const Json below =
+        json_of("mesh " + file("s.exr") + " -o " + file("f.glb") + " --triangles " + std::to_string(fewer));
+    EXPECT_GT(below["levels"][1]["maxErrorSamples"], 0.5);
+    // The same limit as a part of the diagonal.
+    EXPECT_NEAR(level_of(std::to_string(100 * 0.5 * sample / diagonal) + "%")["triangles"].get<double>(),
+                half["triangles"].get<double>(), half["triangles"].get<double>() * 0.1);
+    for (const char* wrong : {"0", "-1", "x", "1k", "nan"})
+        expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + wrong), 2,
+                        "is no error");
 }

@@ -1,9 +1,7 @@
 // glcast mesh --pm, glcast refine and glcast info of a .glpm, run as a user runs them.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "tests/file/file_tools.h"
+#include "tests/file/command_line.h"
 #include "tests/file/sphere_capture.h"
 #include "tests/progressive/openmesh_reader.h"
 #include "tools/io/mesh_io.h"
@@ -14,19 +12,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-Ran glcast_run(const std::string& arguments) { return run(GLCAST_COMMAND " " + arguments); }
-
-Json json_of(const std::string& arguments) {
-    const Ran ran = glcast_run(arguments + " --json 2>/dev/null");
-    EXPECT_EQ(ran.status, 0) << ran.output;
-    return Json::parse(ran.output);
-}
-
 void expect_refused(const std::string& arguments, int status, const std::string& part) {
-    const Ran ran = glcast_run(arguments);
-    EXPECT_EQ(ran.status, status) << ran.output;
-    EXPECT_EQ(std::count(ran.output.begin(), ran.output.end(), '\n'), 1) << ran.output;
-    EXPECT_NE(ran.output.find(part), std::string::npos) << ran.output;
+    expect_one_line(glcast_run(arguments), status, part);
 }
 
 class Refine : public testing::Test {

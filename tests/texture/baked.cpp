@@ -7,27 +7,11 @@
 #include <map>
 #include <numeric>
 
+#include "tools/picture/sample.h"
 #include "tools/reconstruct/reconstruct.h"
 #include "tools/simplify/simplify.h"
 
 namespace glcast::test {
-namespace {
-
-glm::vec3 texel(const Picture& picture, int x, int y) {
-    const int u = std::clamp(x, 0, picture.width - 1), v = std::clamp(y, 0, picture.height - 1);
-    const std::uint8_t* at = &picture.rgb[(std::size_t(v) * picture.width + u) * 3];
-    return glm::vec3(at[0], at[1], at[2]) / 255.0f;
-}
-
-glm::vec3 bilinear(const Picture& picture, const glm::vec2& where) {
-    const float x = where.x * float(picture.width) - 0.5f, y = where.y * float(picture.height) - 0.5f;
-    const int u = int(std::floor(x)), v = int(std::floor(y));
-    const float a = x - float(u), b = y - float(v);
-    return (texel(picture, u, v) * (1 - a) + texel(picture, u + 1, v) * a) * (1 - b) +
-           (texel(picture, u, v + 1) * (1 - a) + texel(picture, u + 1, v + 1) * a) * b;
-}
-
-} // namespace
 
 void paint(std::vector<ViewImage>& images, const Box& box, const Paint& colour) {
     for (ViewImage& image : images)
@@ -63,8 +47,8 @@ Shown shown_at(const Mesh& mesh, const Texture& texture, std::size_t triangle, c
         bitangent += w[k] * own.w * glm::cross(mesh.normals[t[k]], glm::vec3(own));
         where += w[k] * texture.coordinates[triangle][k];
     }
-    const glm::vec3 stored = bilinear(texture.normal, where) * 2.0f - 1.0f;
-    return {bilinear(texture.colour, where),
+    const glm::vec3 stored = sample(texture.normal, where) * 2.0f - 1.0f;
+    return {sample(texture.colour, where),
             glm::normalize(stored.x * glm::normalize(tangent) + stored.y * glm::normalize(bitangent) +
                            stored.z * glm::normalize(normal))};
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <tbb/parallel_for.h>
 
+#include "tools/picture/sample.h"
+
 namespace glcast::test {
 
 class RayScene {
@@ -62,22 +64,6 @@ template <class T> T mix(const glm::vec3& w, const T& a, const T& b, const T& c)
     return w.x * a + w.y * b + w.z * c;
 }
 
-glm::vec3 texel(const Picture& picture, int x, int y) {
-    const auto wrapped = [](int i, int n) { return (i % n + n) % n; };
-    const std::uint8_t* at =
-        &picture
-             .rgb[(std::size_t(wrapped(y, picture.height)) * picture.width + wrapped(x, picture.width)) * 3];
-    return glm::vec3(at[0], at[1], at[2]) / 255.0f;
-}
-
-glm::vec3 bilinear(const Picture& picture, const glm::vec2& where) {
-    const float x = where.x * float(picture.width) - 0.5f, y = where.y * float(picture.height) - 0.5f;
-    const int u = int(std::floor(x)), v = int(std::floor(y));
-    const float a = x - float(u), b = y - float(v);
-    return (texel(picture, u, v) * (1 - a) + texel(picture, u + 1, v) * a) * (1 - b) +
-           (texel(picture, u, v + 1) * (1 - a) + texel(picture, u + 1, v + 1) * a) * b;
-}
-
 struct Surface {
     glm::vec3 colour, normal;
 };
@@ -100,8 +86,8 @@ Surface textured(const Level& level, const RayScene::Hit& hit) {
                     tangent = glm::normalize(mix(hit.weights, glm::vec3(tangents[0]), glm::vec3(tangents[1]),
                                                  glm::vec3(tangents[2]))),
                     bitangent = glm::normalize(mix(hit.weights, bitangents[0], bitangents[1], bitangents[2])),
-                    stored = bilinear(level.texture.normal, where) * 2.0f - 1.0f;
-    return {bilinear(level.texture.colour, where),
+                    stored = sample(level.texture.normal, where) * 2.0f - 1.0f;
+    return {sample(level.texture.colour, where),
             glm::normalize(stored.x * tangent + stored.y * bitangent + stored.z * n)};
 }
 
