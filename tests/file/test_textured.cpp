@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 #include "tests/file/file_tools.h"
 #include "tests/file/textured_torus.h"
@@ -33,6 +34,8 @@ constexpr Case cases[] = {
     {Compression::meshopt, "meshopt", 2.5 / 65535 / 2 * 1.7321, 0.5001 / 65535, 0.0069}};
 
 class Textured : public testing::TestWithParam<Case> {};
+/// meshopt brings the corners back in another order: those are compared by place.
+class TexturedInOrder : public Textured {};
 
 /// Triangles by the places of their corners, whatever their order.
 auto by_place(const Level& level) {
@@ -86,9 +89,7 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
     }
 }
 
-TEST_P(Textured, CornersKeepTheirValues) {
-    if (GetParam().compression == Compression::meshopt)
-        GTEST_SKIP() << "comes back in another order; by place, above";
+TEST_P(TexturedInOrder, CornersKeepTheirValues) {
     const Folder folder;
     const Level level = textured_torus(30, 20);
     write_levels(folder / "t.glb", std::vector{level}, {.compression = GetParam().compression});
@@ -109,8 +110,9 @@ TEST_P(Textured, CornersKeepTheirValues) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Textured, testing::ValuesIn(cases),
-                         [](const auto& info) { return std::string(info.param.name); });
+const auto case_name = [](const auto& info) { return std::string(info.param.name); };
+INSTANTIATE_TEST_SUITE_P(Files, Textured, testing::ValuesIn(cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Files, TexturedInOrder, testing::ValuesIn(std::span(cases).first(2)), case_name);
 
 TEST(TexturedGlb, TheSameBytesEachTime) {
     const Folder folder;
