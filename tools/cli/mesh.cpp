@@ -159,8 +159,9 @@ void make_levels(const Options& options, Made& made) {
     if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
     const MeshCheck& full_check = made.checks[0];
     if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
-    std::vector<Mesh> simplified = options.pm.empty() ? simplify_levels(made.full(), targets)
-                                                      : levels_of_one_run(made.full(), targets, made.log);
+    std::vector<Mesh> simplified = options.pm.empty()
+                                       ? simplify_levels(made.full(), targets, {.checked = &full_check})
+                                       : levels_of_one_run(made.full(), targets, made.log);
     for (Mesh& mesh : simplified) {
         const std::string name = "level " + std::to_string(made.levels.size());
         made.checks.push_back(check_mesh(mesh, depth(options)));

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
@@ -20,11 +21,16 @@
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+#include <utility>
 
 #include "tools/io/capture_layout.h"
 
 namespace glcast {
 namespace {
+
+constexpr std::size_t parts_in_memory = 2; // 36 bytes a pixel
 
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
 
@@ -170,6 +176,7 @@ void check_pixels(const ViewImage& image, int covered, int with_normal) {
         refuse("part " + part_name(image.view) + " does not have the pixels that its header counts");
 }
 
+/// As the file has it; check_part() comes next.
 ViewImage read_part(Imf::MultiPartInputFile& file, int part, const CaptureInfo& info) {
     const Imf::Header& header = file.header(part);
     const CaptureInfo same = read_info(header);
@@ -181,12 +188,15 @@ ViewImage read_part(Imf::MultiPartInputFile& file, int part, const CaptureInfo& 
     image.view = read_view(header);
     image.n = info.n;
     read_pixels(file, part, image);
+    return image;
+}
+
+void check_part(const Imf::Header& header, ViewImage& image) {
     flip(image.depth, image.n);
     flip(image.colour, image.n);
     flip(image.normal, image.n);
     check_pixels(image, value<Imf::IntAttribute>(header, "glcast.covered"),
                  value<Imf::IntAttribute>(header, "glcast.withNormal"));
-    return image;
 }
 
 /// The part of each view: views[axis][0] is +a.0, views[axis][1 + k] is -a.k.
@@ -248,9 +258,17 @@ class LayerOrder {
         }
     }
 
-    const bool has_layers;
+    bool has_layers;
     std::vector<float> previous, last;
 };
+
+/// OpenEXR's own, of which there are none unless somebody asks.
+int unpacking_threads() {
+    const int threads = tbb::this_task_arena::max_concurrency();
+    if (threads < 2) return 0;
+    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    return threads;
+}
 
 struct OpenCapture {
     CaptureLayout layout; ///< checked first, before OpenEXR sees the file
@@ -260,20 +278,52 @@ struct OpenCapture {
 
     explicit OpenCapture(const std::filesystem::path& path)
         : layout(check_capture_layout(path)),
-          file(path.c_str(), 0, false), // no threads, and no guessing of lost chunk tables
+          file(path.c_str(), unpacking_threads(), false), // no guessing of lost chunk tables
           info(read_info(file.header(0))), parts(index_parts(file, info)) {}
 };
 
+/// A part on its way from the file to who wants it.
+struct Moving {
+    int part;
+    bool first_of_axis, has_layers;
+    ViewImage image;
+};
+
+std::vector<Moving> in_order(const PartIndex& index) {
+    std::vector<Moving> all;
+    for (const std::vector<int>& parts : index)
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            all.push_back({parts[k < 2 ? 1 - k : k], k == 0, parts.size() > 2, {}}); // -a.0 before +a.0
+    return all;
+}
+
+/// One part is unpacked while those before it are checked and handed on.
 void read_parts(OpenCapture& capture, const PartSink& sink) {
-    for (std::vector<int>& parts : capture.parts) {
-        std::swap(parts[0], parts[1]); // -a.0 before +a.0
-        LayerOrder order(parts.size() > 2);
-        for (const int part : parts) {
-            ViewImage image = read_part(capture.file, part, capture.info);
-            order.check(image);
-            sink(std::move(image));
-        }
-    }
+    std::vector<Moving> parts = in_order(capture.parts);
+    LayerOrder order(false);
+    std::size_t next = 0;
+    tbb::parallel_pipeline(
+        parts_in_memory,
+        tbb::make_filter<void, Moving*>(tbb::filter_mode::serial_in_order,
+                                        [&](tbb::flow_control& control) -> Moving* {
+                                            if (next == parts.size()) {
+                                                control.stop();
+                                                return nullptr;
+                                            }
+                                            Moving& at = parts[next++];
+                                            at.image = read_part(capture.file, at.part, capture.info);
+                                            return &at;
+                                        }) &
+            tbb::make_filter<Moving*, Moving*>(tbb::filter_mode::parallel,
+                                               [&](Moving* at) {
+                                                   check_part(capture.file.header(at->part), at->image);
+                                                   return at;
+                                               }) &
+            tbb::make_filter<Moving*, void>(tbb::filter_mode::serial_in_order, [&](Moving* at) {
+                if (at->first_of_axis) order = LayerOrder(at->has_layers);
+                order.check(at->image);
+                sink(std::exchange(at->image, {}));
+            }));
 }
 
 /// What a library says, on one line.

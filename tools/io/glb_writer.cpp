@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <optional>
 #include <sstream>
+#include <streambuf>
 #include <tiny_gltf.h>
 
 #include "tools/io/glb_extras.h"
@@ -55,6 +56,8 @@ class GlbBuilder {
         }
     }
 
+    /// Room for the levels, so that the buffer need not grow, and be copied, on the way.
+    void reserve(std::span<const Level> levels, const std::vector<Pngs>& pngs);
     void add_level(const Level& level, const Pngs& pngs);
     void add_scene(std::span<const Level> levels);
     tinygltf::Model model;
@@ -88,6 +91,17 @@ class GlbBuilder {
     bool reorder;
     int plain = -1;
 };
+
+void GlbBuilder::reserve(std::span<const Level> levels, const std::vector<Pngs>& pngs) {
+    constexpr std::size_t vertex_bytes = 12 + 12 + 24, triangle_bytes = 12,
+                          others = 4096; // seams come on top
+    std::size_t bytes = others;
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        bytes += levels[k].mesh.positions.size() * vertex_bytes +
+                 levels[k].mesh.triangles.size() * triangle_bytes + pngs[k].colour.size() +
+                 pngs[k].normal.size();
+    model.buffers[0].data.reserve(std::min(bytes, largest_glb));
+}
 
 int GlbBuilder::add_view(const void* data, std::size_t size, int target, std::size_t stride) {
     std::vector<unsigned char>& bytes = model.buffers[0].data;
@@ -307,9 +321,25 @@ void GlbBuilder::add_scene(std::span<const Level> levels) {
     model.extensionsUsed.push_back("MSFT_lod");
 }
 
-} // namespace
+/// Straight into a file, without a copy of it all in memory.
+class FileBuffer : public std::streambuf {
+  public:
+    explicit FileBuffer(OutputFile& file) : file(file) {}
 
-std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
+  private:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+        return file.append(bytes, std::size_t(count)) ? count : 0;
+    }
+    int_type overflow(int_type byte) override {
+        const char one = traits_type::to_char_type(byte);
+        return file.append(&one, 1) ? byte : traits_type::eof();
+    }
+    OutputFile& file;
+};
+
+/// Uncompressed; false when the stream does not take it.
+bool write_to(std::ostream& stream, std::span<const Level> levels, Compression compression,
+              const PositionGrid* grid) {
     std::optional<PositionGrid> steps;
     if (compression != Compression::none) steps = grid ? *grid : grid_for(levels);
     // Positions are floats: far from the origin they are kept relative to a whole-numbered point near the
@@ -318,19 +348,32 @@ std::string glb_bytes(std::span<const Level> levels, Compression compression, co
     const glm::dvec3 origin = far ? glm::round(centre(levels[0].mesh)) : glm::dvec3(0);
     GlbBuilder builder(origin, steps, compression == Compression::meshopt);
     const std::vector<Pngs> pngs = make_pngs(levels);
+    builder.reserve(levels, pngs);
     for (std::size_t k = 0; k < levels.size(); ++k) builder.add_level(levels[k], pngs[k]);
     builder.add_scene(levels);
+    return tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, stream, false, true) && stream.good();
+}
+
+} // namespace
+
+std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
     std::ostringstream stream;
-    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, stream, false, true))
-        refuse("tinygltf cannot write it");
+    if (!write_to(stream, levels, compression, grid)) refuse("tinygltf cannot write it");
     std::string bytes = std::move(stream).str();
     return compression == Compression::meshopt ? meshopt_compressed(bytes) : bytes;
 }
 
 bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
                const PositionGrid* grid) {
-    const std::string bytes = glb_bytes(levels, compression, grid);
-    return file.append(bytes.data(), bytes.size());
+    if (compression == Compression::meshopt) {
+        const std::string bytes = glb_bytes(levels, compression, grid);
+        return file.append(bytes.data(), bytes.size());
+    }
+    FileBuffer buffer(file);
+    std::ostream stream(&buffer);
+    if (write_to(stream, levels, compression, grid)) return true;
+    if (file.error().empty()) refuse("tinygltf cannot write it");
+    return false;
 }
 
 } // namespace glcast::format

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "tools/mesh/intersections.h"
 
@@ -128,6 +132,38 @@ void count_components(const Mesh& mesh, const Corners& corners, MeshCheck& check
         if (corners.first[v] != corners.first[v + 1] && sets.root(v) == v) ++check.components;
 }
 
+/// What is counted around a vertex.
+void add(MeshCheck& sum, const MeshCheck& more) {
+    for (std::size_t MeshCheck::*count :
+         {&MeshCheck::edges, &MeshCheck::boundary_edges, &MeshCheck::non_manifold_edges,
+          &MeshCheck::non_manifold_vertices, &MeshCheck::unused_vertices})
+        sum.*count += more.*count;
+}
+
+/// Edges and fans; sorts the corners of each vertex.
+MeshCheck check_vertices(const Mesh& mesh, Corners& corners) {
+    tbb::enumerable_thread_specific<MeshCheck> counts;
+    const tbb::blocked_range<std::uint32_t> vertices(0, std::uint32_t(mesh.positions.size()), 4096);
+    tbb::parallel_for(vertices, [&](const auto& range) {
+        MeshCheck& check = counts.local();
+        std::vector<std::pair<std::uint32_t, int>> links;
+        std::vector<std::uint32_t> prevs;
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            Corner *begin = corners.all.data() + corners.first[v],
+                   *end = corners.all.data() + corners.first[v + 1];
+            if (begin == end) {
+                ++check.unused_vertices;
+                continue;
+            }
+            count_edges(v, begin, end, links, check);
+            if (!is_one_fan(begin, end, prevs)) ++check.non_manifold_vertices;
+        }
+    });
+    MeshCheck sum;
+    for (const MeshCheck& check : counts) add(sum, check);
+    return sum;
+}
+
 } // namespace
 
 MeshCheck check_mesh(const Mesh& mesh, CheckDepth depth) {
@@ -136,21 +172,12 @@ MeshCheck check_mesh(const Mesh& mesh, CheckDepth depth) {
         check.self_intersections = count_self_intersections(mesh.positions, mesh.triangles);
     check.vertices = mesh.positions.size();
     check.triangles = mesh.triangles.size();
-    measure(mesh, check);
-    Corners corners(mesh);
-    count_components(mesh, corners, check);
-    std::vector<std::pair<std::uint32_t, int>> links;
-    std::vector<std::uint32_t> prevs;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        Corner *begin = corners.all.data() + corners.first[v],
-               *end = corners.all.data() + corners.first[v + 1];
-        if (begin == end) {
-            ++check.unused_vertices;
-            continue;
-        }
-        count_edges(v, begin, end, links, check);
-        if (!is_one_fan(begin, end, prevs)) ++check.non_manifold_vertices;
-    }
+    std::optional<Corners> corners;
+    tbb::parallel_invoke([&] { measure(mesh, check); }, [&] { corners.emplace(mesh); });
+    MeshCheck around;
+    tbb::parallel_invoke([&] { count_components(mesh, *corners, check); },
+                         [&] { around = check_vertices(mesh, *corners); });
+    add(check, around);
     check.euler = static_cast<long>(check.vertices - check.unused_vertices) - static_cast<long>(check.edges) +
                   static_cast<long>(check.triangles - check.degenerate_triangles);
     return check;

@@ -16,8 +16,8 @@ constexpr float same_facet = 0.9f;       // cosine between normals of pixels tha
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
 struct Pixel {
-    float weight = 0, distance = 0;
-    glm::vec3 plane{0}, normal{0}, colour{0};
+    float weight, distance;
+    glm::vec3 plane, normal, colour;
 };
 
 glm::vec3 unit_or_zero(const glm::vec3& v) {
@@ -30,10 +30,10 @@ glm::vec3 drawn_normal(const AxisHits& hits, std::uint32_t hit) {
 }
 
 /// One view's opinion on a point: its up to four pixels that agree with the point's place.
-class Opinion {
+template <int axis> class Opinion {
   public:
-    Opinion(const Rays& rays, int axis, int side, const glm::dvec3& at)
-        : rays(rays), axis(axis), side(side), axes(image_axes(Axis(axis))), at(at) {}
+    Opinion(const Rays& rays, int side, const glm::dvec3& at)
+        : hits(rays.axis[axis]), n(rays.n), side(side), at(at) {}
 
     Attribute mix() {
         const int u = int(std::floor(at[axes.u])), v = int(std::floor(at[axes.v]));
@@ -65,14 +65,14 @@ class Opinion {
     /// The pixel's nearest hit that agrees; of two at one depth, as the two sides of a sheet are, the one on
     /// our side.
     void consider(int u, int v) {
-        if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return;
-        const std::size_t p = std::size_t(v) * rays.n + u;
-        const AxisHits& hits = rays.axis[axis];
+        if (u < 0 || v < 0 || u >= n || v >= n) return;
+        const std::size_t p = std::size_t(v) * n + u;
+        const std::uint32_t end = hits.start[p + 1];
         const double away_u = at[axes.u] - u, away_v = at[axes.v] - v;
-        Pixel pixel;
-        pixel.distance = agreement;
-        std::uint32_t best = hits.start[p + 1];
-        for (std::uint32_t i = hits.start[p]; i < hits.start[p + 1]; ++i) {
+        float least = agreement;
+        glm::vec3 plane_there{0};
+        std::uint32_t best = end;
+        for (std::uint32_t i = hits.start[p]; i < end; ++i) {
             if (!hits.plane[i] || std::abs(at[axes.depth] - hits.depth[i]) > reach) continue;
             glm::vec3 from_hit;
             from_hit[axes.u] = float(away_u);
@@ -80,26 +80,26 @@ class Opinion {
             from_hit[axes.depth] = float(at[axes.depth] - hits.depth[i]);
             const glm::vec3 plane = unpack_normal(hits.plane[i]);
             const float distance = std::abs(glm::dot(plane, from_hit));
-            const bool nearer = distance < pixel.distance - same_place;
-            if (!nearer &&
-                !(side == 1 && best != hits.start[p + 1] && distance < pixel.distance + same_place))
-                continue;
-            pixel.distance = distance;
-            pixel.plane = plane;
+            const bool nearer = distance < least - same_place;
+            if (!nearer && !(side == 1 && best != end && distance < least + same_place)) continue;
+            least = distance;
+            plane_there = plane;
             best = i;
         }
-        if (best == hits.start[p + 1]) return;
+        if (best == end) return;
+        Pixel& pixel = pixels[count++];
         pixel.weight = float((1 - std::abs(away_u)) * (1 - std::abs(away_v))) + 1e-6f;
+        pixel.distance = least;
+        pixel.plane = plane_there;
         pixel.normal = drawn_normal(hits, best);
         pixel.colour = unpack_colour(hits.colour[best]);
-        pixels[count++] = pixel;
     }
 
-    const Rays& rays;
-    const int axis, side;
-    const ImageAxes axes;
+    static constexpr ImageAxes axes = image_axes(Axis(axis));
+    const AxisHits& hits;
+    const int n, side;
     const glm::dvec3 at;
-    Pixel pixels[4];
+    Pixel pixels[4]; // the first `count` are filled
     int count = 0;
 };
 
@@ -195,7 +195,10 @@ Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& 
         return fa != fb ? fa > fb : a < b;
     });
     for (int axis : order) {
-        const Attribute found = Opinion(rays, axis, surface_normal[axis] > 0 ? 1 : 0, at).mix();
+        const int side = surface_normal[axis] > 0 ? 1 : 0;
+        const Attribute found = axis == 0   ? Opinion<0>(rays, side, at).mix()
+                                : axis == 1 ? Opinion<1>(rays, side, at).mix()
+                                            : Opinion<2>(rays, side, at).mix();
         if (found.found) return found;
     }
     return {};

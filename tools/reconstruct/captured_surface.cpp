@@ -27,11 +27,10 @@ struct Plane {
 };
 
 /// Finds surface by the rays of one axis, seen from one side.
-class Walk {
+template <int axis> class Walk {
   public:
-    Walk(const Rays& rays, int axis, const glm::vec3& facing)
-        : rays(rays), hits(rays.axis[axis]), axis(axis), side(facing[axis] > 0 ? 1 : 0),
-          axes(image_axes(Axis(axis))), facing(facing) {}
+    Walk(const Rays& rays, const glm::vec3& facing)
+        : rays(rays), hits(rays.axis[axis]), side(facing[axis] > 0 ? 1 : 0), facing(facing) {}
 
     /// From `from` along the line; where it leads off the surface, the last plane under way. `beside`: the
     /// first pixel may be so many beside the point.
@@ -111,10 +110,10 @@ class Walk {
         return at;
     }
 
+    static constexpr ImageAxes axes = image_axes(Axis(axis));
     const Rays& rays;
     const AxisHits& hits;
-    const int axis, side;
-    const ImageAxes axes;
+    const int side;
     const glm::vec3 facing;
 };
 
@@ -157,8 +156,10 @@ CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& alo
     for (int beside : {0, outline})
         for (int axis : order) {
             if (std::abs(facing[axis]) < steepest) break;
-            if (const auto plane = Walk(*rays, axis, facing).run(start, along, reach, beside))
-                return seen_at(axis, plane->at, plane->normal, plane->hit);
+            const auto plane = axis == 0   ? Walk<0>(*rays, facing).run(start, along, reach, beside)
+                               : axis == 1 ? Walk<1>(*rays, facing).run(start, along, reach, beside)
+                                           : Walk<2>(*rays, facing).run(start, along, reach, beside);
+            if (plane) return seen_at(axis, plane->at, plane->normal, plane->hit);
         }
     return {};
 }

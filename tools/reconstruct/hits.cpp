@@ -47,21 +47,9 @@ std::uint32_t pack_normal(const glm::vec3& unit) {
     return quantise(a) << 16 | quantise(b);
 }
 
-glm::vec3 unpack_normal(std::uint32_t packed) {
-    const float a = (float(packed >> 16) - 32768) / 32767, b = (float(packed & 0xffff) - 32768) / 32767;
-    const float z = 1 - std::abs(a) - std::abs(b);
-    const glm::vec3 n = z < 0 ? glm::vec3(fold(a, b), fold(b, a), z) : glm::vec3(a, b, z);
-    return glm::normalize(n);
-}
-
 std::uint32_t pack_colour(const glm::vec3& colour) {
     const auto ten = [](float c) { return std::uint32_t(std::lround(std::clamp(c, 0.0f, 1.0f) * 1020)); };
     return ten(colour.r) << 20 | ten(colour.g) << 10 | ten(colour.b);
-}
-
-glm::vec3 unpack_colour(std::uint32_t packed) {
-    const auto ten = [](std::uint32_t c) { return float(c & 1023) / 1020; };
-    return {ten(packed >> 20), ten(packed >> 10), ten(packed)};
 }
 
 void HitBuilder::add(const ViewImage& image) {

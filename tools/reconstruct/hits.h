@@ -3,7 +3,9 @@
 // Unit of length: samples. Sample i of an axis sits at coordinate i, so a ray runs from -1/2 to n - 1/2.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
 
@@ -37,10 +39,18 @@ inline std::size_t pixel_of(int a, const std::array<int, 3>& s, int n) {
 
 /// Unit vector in 32 bits (octahedral, 3e-5 radians); never 0.
 std::uint32_t pack_normal(const glm::vec3& unit);
-glm::vec3 unpack_normal(std::uint32_t packed);
+inline glm::vec3 unpack_normal(std::uint32_t packed) {
+    const auto fold = [](float a, float b) { return (1 - std::abs(b)) * (a >= 0 ? 1.0f : -1.0f); };
+    const float a = (float(packed >> 16) - 32768) / 32767, b = (float(packed & 0xffff) - 32768) / 32767;
+    const float z = 1 - std::abs(a) - std::abs(b);
+    return glm::normalize(z < 0 ? glm::vec3(fold(a, b), fold(b, a), z) : glm::vec3(a, b, z));
+}
 /// 0..1 with ten bits a channel: every 8-bit colour comes back as it was.
 std::uint32_t pack_colour(const glm::vec3& colour);
-glm::vec3 unpack_colour(std::uint32_t packed);
+inline glm::vec3 unpack_colour(std::uint32_t packed) {
+    const auto ten = [](std::uint32_t c) { return float(c & 1023) / 1020; };
+    return {ten(packed >> 20), ten(packed >> 10), ten(packed)};
+}
 
 /// Takes the images of a capture one at a time, in any order, so that they need not be in memory together.
 class HitBuilder {

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -62,21 +63,25 @@ Corners corners(const Mesh& mesh, const Triangle& t) {
 
 /// Evenly by area; within a triangle by Roberts's R2 sequence, folded.
 std::vector<Sample> spread(const Mesh& surface, const std::vector<std::uint32_t>& became, std::size_t count) {
+    std::vector<double> areas(surface.triangles.size()); // twice; the sums stay in one order
+    tbb::parallel_for(std::size_t(0), areas.size(), [&](std::size_t t) {
+        areas[t] = glm::length(corners(surface, surface.triangles[t]).normal());
+    });
     double total = 0, passed = 0;
-    for (const Triangle& t : surface.triangles) total += glm::length(corners(surface, t).normal());
+    for (const double area : areas) total += area;
     std::vector<Sample> samples;
     if (!(total > 0)) return samples;
     samples.reserve(count);
-    for (const Triangle& t : surface.triangles) {
-        const Corners at = corners(surface, t);
-        const glm::dvec3 normal = at.normal();
-        passed += glm::length(normal);
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        passed += areas[i];
         while (samples.size() < count && (double(samples.size()) + 0.5) * total < passed * double(count)) {
             const double k = double(samples.size() + 1);
             double u = std::fmod(0.5 + k * 0.7548776662466927, 1),
                    v = std::fmod(0.5 + k * 0.5698402909980532, 1);
             if (u + v > 1) u = 1 - u, v = 1 - v;
-            samples.push_back({at.a + u * (at.b - at.a) + v * (at.c - at.a), normal, became[t[0]]});
+            const Corners at = corners(surface, surface.triangles[i]);
+            samples.push_back(
+                {at.a + u * (at.b - at.a) + v * (at.c - at.a), at.normal(), became[surface.triangles[i][0]]});
         }
     }
     return samples;
@@ -145,16 +150,31 @@ class Fit {
 
     void lay(Sample& sample, Place& place) const {
         place = Place{};
-        look_around(sample, sample.start, place);
+        Seen seen;
+        look_around(sample, sample.start, place, seen);
         for (double before = infinity; place.squared < before;) {
             before = place.squared;
             for (const std::uint32_t v : Triangle(mesh.triangles[place.triangle]))
-                look_around(sample, v, place);
+                look_around(sample, v, place, seen);
         }
         sample.start = mesh.triangles[place.triangle][0];
     }
 
-    void look_around(const Sample& sample, std::uint32_t vertex, Place& best) const {
+    /// The vertices that a walk looked around last: what lies there is no nearer the second time.
+    struct Seen {
+        std::array<std::uint32_t, 8> vertices;
+        std::size_t count = 0;
+
+        bool add(std::uint32_t vertex) {
+            const auto end = vertices.begin() + std::ptrdiff_t(std::min(count, vertices.size()));
+            if (std::find(vertices.begin(), end, vertex) != end) return false;
+            vertices[count++ % vertices.size()] = vertex;
+            return true;
+        }
+    };
+
+    void look_around(const Sample& sample, std::uint32_t vertex, Place& best, Seen& seen) const {
+        if (!seen.add(vertex)) return;
         for (const std::uint32_t triangle : walk->around(vertex)) {
             const Corners at = corners(mesh, mesh.triangles[triangle]);
             const bool faces = glm::dot(at.normal(), sample.normal) > 0;

@@ -71,7 +71,7 @@ AttributeWeights weights_of(const SimplifyOptions& options) {
 
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
                                   const SimplifyOptions& options, CollapseLog* log) {
-    const MeshCheck have = check_mesh(mesh);
+    const MeshCheck have = options.checked ? *options.checked : check_mesh(mesh);
     std::vector<Collapser::Limit> limits(targets.size());
     std::transform(targets.begin(), targets.end(), limits.begin(),
                    [&](const SimplifyTarget& t) { return limit_of(t, have); });

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "tools/mesh/check.h"
 #include "tools/mesh/mesh.h"
 #include "tools/simplify/collapse_log.h"
 
@@ -25,6 +26,8 @@ struct SimplifyOptions {
     /// given: what leaves the least error, with and without the fit (docs/method.md, "Levels").
     double colour_weight = 0.001;
     std::optional<double> normal_weight = {};
+    /// What check_mesh() says of the mesh, where that is known already.
+    const MeshCheck* checked = nullptr;
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that

@@ -24,6 +24,7 @@ constexpr double crumb = 64;        // samples squared: a chart costs more than 
 constexpr double least_reach = 1.5; // samples
 constexpr double most_triangles = 0.95;
 constexpr std::size_t most_probes = 20000;
+constexpr int block = 32;           // texels
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
 struct Layout {
@@ -64,7 +65,7 @@ glm::vec3 in_frame(const glm::vec3& wanted, const glm::vec3& normal, const glm::
 
 void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
     for (int c = 0; c < 3; ++c)
-        picture.rgb[3 * texel + c] = std::uint8_t(std::lround(std::clamp(value[c], 0.0f, 1.0f) * 255));
+        picture.rgb[3 * texel + c] = std::uint8_t(double(std::clamp(value[c], 0.0f, 1.0f) * 255) + 0.5);
 }
 
 /// How far, in samples, to look for the surface from a level: what most of its triangles need, and as much
@@ -178,17 +179,21 @@ void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout
     std::vector<std::uint8_t> known(owners.size());
     const double reach = needed_reach(mesh, captured, layout.triangle_normals);
     std::atomic<std::size_t> texels = 0, unseen = 0;
-    tbb::parallel_for(0, size, [&](int y) {
+    // Square by square: what one row reads of a large mesh is still in the caches for the next.
+    const int across = (size + block - 1) / block;
+    tbb::parallel_for(0, across * across, [&](int number) {
         Baker baker(mesh, captured, layout, reach, texture);
         std::size_t mine = 0, missed = 0;
-        for (int x = 0; x < size; ++x) {
-            const std::uint32_t owner = owners[std::size_t(y) * size + x];
-            if (owner == no_triangle) continue;
-            known[std::size_t(y) * size + x] = 1;
-            const Baker::Done done = baker.bake(x, y, owner);
-            mine += done.covered;
-            missed += done.covered && !done.seen;
-        }
+        const int x0 = number % across * block, y0 = number / across * block;
+        for (int y = y0; y < std::min(y0 + block, size); ++y)
+            for (int x = x0; x < std::min(x0 + block, size); ++x) {
+                const std::uint32_t owner = owners[std::size_t(y) * size + x];
+                if (owner == no_triangle) continue;
+                known[std::size_t(y) * size + x] = 1;
+                const Baker::Done done = baker.bake(x, y, owner);
+                mine += done.covered;
+                missed += done.covered && !done.seen;
+            }
         texels += mine;
         unseen += missed;
     });

@@ -1,6 +1,7 @@
 #include "tools/texture/charts.h"
 
 #include <deque>
+#include <glm/common.hpp>
 #include <limits>
 #include <tbb/parallel_for.h>
 #include <utility>
@@ -19,12 +20,14 @@ class Part {
     Part(const Mesh& mesh, const Neighbours& neighbours, ViewNumber view, double cell,
          const glm::dvec3& origin, std::span<const std::uint32_t> triangles)
         : mesh(mesh), neighbours(neighbours), triangles(triangles), view(view), cell(cell), origin(origin) {
-        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+        glm::dvec3 first(std::numeric_limits<double>::infinity()), last(-first);
         for (std::uint32_t t : triangles)
-            for (const glm::dvec2& p : corners(t)) {
-                low = glm::dvec2(std::min(low.x, p.x), std::min(low.y, p.y));
-                high = glm::dvec2(std::max(high.x, p.x), std::max(high.y, p.y));
+            for (std::uint32_t v : mesh.triangles[t]) {
+                first = glm::min(first, mesh.positions[v]);
+                last = glm::max(last, mesh.positions[v]);
             }
+        const glm::dvec2 one = on_grid(first), other = on_grid(last), low = glm::min(one, other),
+                         high = glm::max(one, other);
         x0 = int(std::floor(low.x)), y0 = int(std::floor(low.y));
         width = int(std::ceil(high.x)) - x0 + 1, height = int(std::ceil(high.y)) - y0 + 1;
         grid.assign(std::size_t(width) * height, none);
@@ -53,10 +56,10 @@ class Part {
   private:
     std::array<glm::dvec2, 3> corners(std::uint32_t t) const {
         std::array<glm::dvec2, 3> out;
-        for (int k = 0; k < 3; ++k)
-            out[k] = in_picture((mesh.positions[mesh.triangles[t][k]] - origin) / cell, view);
+        for (int k = 0; k < 3; ++k) out[k] = on_grid(mesh.positions[mesh.triangles[t][k]]);
         return out;
     }
+    glm::dvec2 on_grid(const glm::dvec3& p) const { return in_picture((p - origin) / cell, view); }
     std::uint32_t& at(int x, int y) { return grid[std::size_t(y - y0) * width + (x - x0)]; }
 
     /// False, and nothing is done, where the triangle would cover a cell of the chart.
@@ -98,17 +101,21 @@ class Part {
     std::vector<std::uint32_t> grid;
 };
 
-void find_bounds(const Mesh& mesh, Charts& made) {
-    for (auto& chart : made.charts) {
+/// Of the charts of a part, which begin at `first`: their numbers, views and bounds.
+void finish(const Mesh& mesh, std::span<const std::uint32_t> triangles, std::span<Charts::Chart> charts,
+            std::uint32_t first, ViewNumber view, Charts& made) {
+    for (auto& chart : charts) {
+        chart.view = view;
         chart.low = glm::dvec2(std::numeric_limits<double>::infinity());
         chart.high = -chart.low;
     }
-    for (std::size_t t = 0; t < made.of.size(); ++t) {
-        auto& chart = made.charts[made.of[t]];
+    for (std::uint32_t t : triangles) {
+        auto& chart = charts[made.of[t]];
+        made.of[t] += first;
         for (std::uint32_t v : mesh.triangles[t]) {
-            const glm::dvec2 p = in_picture(mesh.positions[v], chart.view);
-            chart.low = glm::dvec2(std::min(chart.low.x, p.x), std::min(chart.low.y, p.y));
-            chart.high = glm::dvec2(std::max(chart.high.x, p.x), std::max(chart.high.y, p.y));
+            const glm::dvec2 p = in_picture(mesh.positions[v], view);
+            chart.low = glm::min(chart.low, p);
+            chart.high = glm::max(chart.high, p);
         }
     }
 }
@@ -128,17 +135,18 @@ Charts make_charts(const Mesh& mesh, const Neighbours& neighbours, const std::ve
     Charts made;
     made.of.resize(part.size());
     std::vector<std::uint32_t> first(parts + 1, 0);
+    const auto own = [&](std::uint32_t p) {
+        return std::span<const std::uint32_t>(members.data() + start[p], start[p + 1] - start[p]);
+    };
     tbb::parallel_for(std::uint32_t(0), parts, [&](std::uint32_t p) {
-        const std::span<const std::uint32_t> own(members.data() + start[p], start[p + 1] - start[p]);
-        first[p + 1] = Part(mesh, neighbours, views[own[0]], cell, origin, own).split(made.of);
+        first[p + 1] = Part(mesh, neighbours, views[own(p)[0]], cell, origin, own(p)).split(made.of);
     });
     for (std::uint32_t p = 0; p < parts; ++p) first[p + 1] += first[p];
     made.charts.resize(first[parts]);
-    for (std::uint32_t t = 0; t < part.size(); ++t) {
-        made.of[t] += first[part[t]];
-        made.charts[made.of[t]].view = views[t];
-    }
-    find_bounds(mesh, made);
+    tbb::parallel_for(std::uint32_t(0), parts, [&](std::uint32_t p) {
+        finish(mesh, own(p), {made.charts.data() + first[p], first[p + 1] - first[p]}, first[p],
+               views[own(p)[0]], made);
+    });
     return made;
 }
 

@@ -120,6 +120,7 @@ std::vector<ViewNumber> choose_views(const Mesh& mesh, const Neighbours& neighbo
     for (int round = 0; round < rounds; ++round) {
         sweep(normals, smooth, neighbours, smoothness, views, after);
         views.swap(after);
+        if (views == after) break; // nobody changes any more
     }
     join_crumbs(mesh, neighbours, normals, crumb, views);
     return views;
