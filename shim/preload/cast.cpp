@@ -291,6 +291,8 @@ class Cast {
                     not_understood[what] += times;
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
+        if (window.unanswered > 0)
+            not_understood["questions about windows that the X server did not answer in time"] = window.unanswered;
         CaptureInfo info = make_info(number, options, engine, gl);
         info.not_understood = std::move(not_understood);
         const std::string path = output_name(options.out, getpid(), number);
