@@ -124,6 +124,21 @@ class Cast {
         : parts(frame_parts), number(frame_number), options(of), window(in),
           gl(masked_table(real_table(), of.mask)), siblings(*frame_parts.front().context) {}
 
+    /// Textures that replays have made lie in the program's share group.
+    ~Cast() {
+        try {
+            for (const FramePart& part : parts)
+                if (record::has_copies(*part.frame)) {
+                    siblings.enter(part);
+                    record::delete_copies(*part.frame, gl);
+                }
+        } catch (const std::exception&) {
+            say_once("copies of textures could not be deleted");
+        }
+    }
+    Cast(const Cast&) = delete;
+    Cast& operator=(const Cast&) = delete;
+
     CastResult run(std::vector<Candidate>& listed) {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
