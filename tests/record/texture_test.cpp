@@ -166,6 +166,8 @@ const Case cases[] = {
          gl.PixelStorei(GL_PACK_SWAP_BYTES, 1);
          fill(gl, blue);
          square(gl, 0, -1);
+         gl.PixelStorei(GL_PACK_SKIP_PIXELS, 0); // for the rig's own reading
+         gl.PixelStorei(GL_PACK_SWAP_BYTES, 0);
      }},
     {"mipmaps_made_anew", two_textures,
      [](auto& gl) {
