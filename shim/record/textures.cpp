@@ -96,7 +96,6 @@ void copy_texture(Context& context, GLuint name, GLenum target, bool deleted) {
 
 void end_texture(Context& context, GLuint name, GLenum target, bool deleted) {
     Recording& recording = *context.recording;
-    if (!recording.given_up.empty()) return;
     const auto [use, is_new] = recording.textures.try_emplace(name, Recording::TextureUse{target, 0});
     if (recording.draws == use->second.draws) return; // nothing can have been drawn from it
     use->second = {target, recording.draws};
@@ -134,6 +133,22 @@ GLenum target_of(Context& context, GLuint name) {
     return context.real.IsTexture(name) ? found->second : 0;
 }
 
+/// What is noted here must not end the program where memory runs out.
+template <class Work> void guarded(Context& context, Work&& work) noexcept {
+    try {
+        if (context.recording->given_up.empty()) work(*context.recording);
+    } catch (const std::exception&) {
+        context.give_up_frame("out of memory");
+    }
+}
+
+void note_deletion(Context& context, GLuint name) {
+    guarded(context, [&](Recording& recording) {
+        if (const GLenum target = target_of(context, name)) end_texture(context, name, target, true);
+        recording.textures.erase(name); // the name may come again as another texture's
+    });
+}
+
 } // namespace
 
 void note_bound_textures(Recording& recording) {
@@ -151,7 +166,7 @@ void copy_before_change(Context& context, GLenum target) {
     GLenum object = 0;
     const GLenum binding = texture_binding(target, &object);
     if (const GLint name = binding ? get_int(context.real, binding) : 0)
-        end_texture(context, GLuint(name), object, false);
+        guarded(context, [&](Recording&) { end_texture(context, GLuint(name), object, false); });
 }
 
 } // namespace glcast::record
@@ -159,28 +174,26 @@ void copy_before_change(Context& context, GLenum target) {
 namespace glcast::record::custom {
 
 void APIENTRY BindTexture(GLenum target, GLuint name) {
-    if (Context* context = listening_context()) {
+    Context* context = listening_context();
+    if (context)
         context->emit(true, [&](Stream& stream) { packets::BindTexture::write(stream, target, name); });
-        Recording* recording = context->recording.get();
-        if (recording && name && context->executes() && context->can_query() && texture_binding(target)) {
-            const auto [use, is_new] =
-                recording->textures.try_emplace(name, Recording::TextureUse{target, recording->draws});
-            // A list may have bound it before.
-            if (is_new && recording->calls_lists && this_thread.real->IsTexture(name)) use->second.draws = 0;
-        }
-    }
+    const Recording* recording =
+        context && context->executes() && context->can_query() ? context->recording.get() : nullptr;
+    const GLenum binding =
+        recording && name && !recording->textures.contains(name) ? texture_binding(target) : 0;
+    const bool lists_may_have = binding && recording->calls_lists && context->real.IsTexture(name);
     this_thread.real->BindTexture(target, name);
+    if (!binding || GLuint(get_int(context->real, binding)) != name) return; // known, or refused
+    guarded(*context, [&](Recording& of) {
+        of.textures.try_emplace(name, Recording::TextureUse{target, lists_may_have ? 0 : of.draws});
+    });
 }
 
 void APIENTRY DeleteTextures(GLsizei n, const GLuint* names) {
     Context* context = listening_context();
     if (context && context->recording && context->can_query() && names)
-        for (GLsizei i = 0; i < n; ++i) {
-            if (!names[i]) continue;
-            if (const GLenum target = target_of(*context, names[i]))
-                end_texture(*context, names[i], target, true);
-            context->recording->textures.erase(names[i]); // the name may come again as another texture's
-        }
+        for (GLsizei i = 0; i < n; ++i)
+            if (names[i]) note_deletion(*context, names[i]);
     this_thread.real->DeleteTextures(n, names);
 }
 
