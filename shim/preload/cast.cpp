@@ -124,6 +124,21 @@ class Cast {
         : parts(frame_parts), number(frame_number), options(of), window(in),
           gl(masked_table(real_table(), of.mask)), siblings(*frame_parts.front().context) {}
 
+    /// Textures that replays have made lie in the program's share group.
+    ~Cast() {
+        try {
+            for (const FramePart& part : parts)
+                if (record::has_copies(*part.frame)) {
+                    siblings.enter(part);
+                    record::delete_copies(*part.frame, gl);
+                }
+        } catch (const std::exception&) {
+            say_once("copies of textures could not be deleted");
+        }
+    }
+    Cast(const Cast&) = delete;
+    Cast& operator=(const Cast&) = delete;
+
     CastResult run(std::vector<Candidate>& listed) {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
@@ -291,6 +306,8 @@ class Cast {
                     not_understood[what] += times;
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
+        if (window.unanswered > 0)
+            not_understood["questions about windows that the X server did not answer in time"] = window.unanswered;
         CaptureInfo info = make_info(number, options, engine, gl);
         info.not_understood = std::move(not_understood);
         const std::string path = output_name(options.out, getpid(), number);

@@ -1,11 +1,11 @@
 // The frames of a session that have ended: which are cast, and what is told of the others.
-#include <pthread.h>
 #include <signal.h>
 
 #include <cstdlib>
 #include <thread>
 
 #include "shim/preload/cast.h"
+#include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
 #include "shim/preload/status.h"
 
@@ -51,26 +51,17 @@ void settle(Session& s) {
     if (s.options.quit) end_program();
 }
 
-void* settle_in_time(void* session) {
-    Session& s = *static_cast<Session*>(session);
+void settle_in_time(Session& s) {
     std::this_thread::sleep_for(patience);
     while (s.casting) std::this_thread::sleep_for(look_again);
     settle(s);
-    return nullptr;
 }
 
-/// The windows that are not drawn again must not keep people waiting. The program's signals are not for this
-/// thread.
+/// The windows that are not drawn again must not keep people waiting.
 void hold(Session& s) {
     if (s.holding.exchange(true)) return;
     s.settled = true;
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    pthread_t thread;
-    const bool started = pthread_create(&thread, nullptr, settle_in_time, &s) == 0;
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    started ? void(pthread_detach(thread)) : settle(s);
+    if (!start_own_thread([&s] { settle_in_time(s); })) settle(s);
 }
 
 /// A frame that was asked for is captured, listed, or lost for good.
@@ -102,14 +93,14 @@ void destroy_siblings(const std::vector<FramePart>& parts) {
 }
 
 void look_at_windows(Session& s, const NativeContext& context) {
-    Windows asked;
+    std::vector<std::uint32_t> names;
     {
         const std::lock_guard lock(s.mutex);
-        asked = s.windows;
+        names = s.windows.names();
     }
-    asked.look(context.system->server(context.display));
+    const WindowAnswers answers = s.inquiry.ask(context.system->server(context.display), std::move(names));
     const std::lock_guard lock(s.mutex);
-    s.windows.learn(asked);
+    s.windows.learn(answers);
 }
 
 /// Nothing where no frame of this window is wanted.
@@ -129,7 +120,8 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
         if (chooses_a_window(s.options) && s.windows.others_may_follow(drawable) &&
             !s.told_looks.exchange(true))
             tell("looks", s.windows.list());
-        return CastWindow{s.windows.describe(drawable), s.holding ? s.windows.held() : std::nullopt};
+        return CastWindow{s.windows.describe(drawable), s.holding ? s.windows.held() : std::nullopt,
+                          s.inquiry.unanswered()};
     }
     Census other;
     other.other_windows =

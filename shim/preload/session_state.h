@@ -39,6 +39,7 @@ struct Session {
     Census seen;
     unsigned told_kinds = 0;
     Windows windows;
+    WindowInquiry inquiry; ///< of who sets `casting`
     std::vector<Candidate> listed; ///< of the windows that were looked at so far
 
     std::atomic<bool> casting{false}, hooked{false};

@@ -1,11 +1,11 @@
 #include "shim/preload/watcher.h"
 
 #include <poll.h>
-#include <pthread.h>
-#include <signal.h>
 
 #include <chrono>
+#include <memory>
 
+#include "shim/preload/own_thread.h"
 #include "shim/preload/status.h"
 #include "shim/preload/x_connection.h"
 
@@ -83,31 +83,18 @@ class Watcher {
     bool next_exposes = true, wider = false;
 };
 
-void* run_watcher(void* watcher) {
-    const std::unique_ptr<Watcher> owned(static_cast<Watcher*>(watcher));
+void watch(Watcher& watcher) noexcept {
     try {
-        owned->run();
+        watcher.run();
     } catch (const std::exception& error) {
         say_once("the key is no longer watched: %s", error.what());
     }
-    return nullptr;
 }
 
 } // namespace
 
-/// The program's signals are not for this thread.
 void start_watcher(const Options& options, const std::string& display, Watched watched) {
-    auto* watcher = new Watcher(options, display, std::move(watched));
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    pthread_t thread;
-    const bool started = pthread_create(&thread, nullptr, run_watcher, watcher) == 0;
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    if (started)
-        pthread_detach(thread);
-    else
-        delete watcher;
+    start_own_thread([watcher = std::make_shared<Watcher>(options, display, std::move(watched))] { watch(*watcher); });
 }
 
 } // namespace glcast::preload

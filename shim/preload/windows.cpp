@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <tuple>
-
-#include "shim/preload/x_connection.h"
-
 namespace glcast::preload {
 namespace {
 
@@ -37,21 +34,18 @@ void Windows::drawn_to(std::uintptr_t drawable, std::uint32_t window) {
     at->second.name = surface != surfaces.end() ? surface->second : window;
 }
 
-void Windows::look(const std::string& server) {
-    std::string why;
-    const auto connection = XConnection::open(server, why);
-    if (!connection) return;
-    for (auto& [drawable, window] : windows) {
-        window.viewable = window.name != 0 && connection->is_viewable(window.name);
-        if (window.viewable) window.title = connection->title(window.name);
-    }
+std::vector<std::uint32_t> Windows::names() const {
+    std::vector<std::uint32_t> all;
+    for (const auto& [drawable, window] : windows)
+        if (window.name != 0) all.push_back(window.name);
+    return all;
 }
 
-void Windows::learn(const Windows& copy) {
-    for (const auto& [drawable, facts] : copy.windows) {
-        Window& window = windows[drawable];
-        window.viewable = facts.viewable;
-        window.title = facts.title;
+void Windows::learn(const WindowAnswers& answers) {
+    for (auto& [drawable, window] : windows) {
+        const auto found = answers.find(window.name);
+        window.viewable = window.name != 0 && (found == answers.end() || found->second.viewable);
+        window.title = found == answers.end() ? "" : found->second.title;
     }
 }
 

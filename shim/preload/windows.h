@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shim/preload/choice.h"
+#include "shim/preload/window_inquiry.h"
 
 namespace glcast::preload {
 
@@ -36,10 +37,10 @@ class Windows {
     void surface_made(std::uintptr_t drawable, std::uint32_t window);
     /// A context of desktop GL draws to it.
     void drawn_to(std::uintptr_t drawable, std::uint32_t window);
-    /// Ask the X server anew; `server` as in $DISPLAY.
-    void look(const std::string& server);
-    /// What a copy has found out by `look`.
-    void learn(const Windows& copy);
+    /// The X server's names of all.
+    std::vector<std::uint32_t> names() const;
+    /// What the X server says of them. One of which it has not said anything yet may be on the screen.
+    void learn(const WindowAnswers& answers);
     std::size_t count() const { return windows.size(); }
 
     /// `wanted` as given by --window: a number, 0x and the server's name, or a part of the title.

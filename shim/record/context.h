@@ -46,6 +46,13 @@ struct Matrix {
 /// until the program itself pops down to it; the ones it never comes to are never needed.
 using MatrixStack = std::vector<Matrix>;
 
+/// A texture as it was before the program changed or deleted it in the frame.
+struct TextureCopy {
+    GLuint name = 0; ///< the program's
+    GLenum target = 0;
+    Stream contents; ///< its images and parameters
+};
+
 struct Frame {
     int version = 0; ///< of the program's context, 10 * major + minor
     bool has_multitexture = false;
@@ -55,6 +62,8 @@ struct Frame {
     std::unordered_map<GLuint, List> lists; ///< as they stood at the start
     std::vector<List> redefinitions;        ///< by number, from define_list packets
     std::vector<Blob> blobs;                ///< by number, from draw packets
+    std::vector<TextureCopy> textures;      ///< by number, from end_texture packets
+    mutable std::vector<GLuint> stand_ins;  ///< texture objects that hold these, made by the first replay
     std::map<std::string, long> not_understood;
 };
 
@@ -82,6 +91,15 @@ struct Recording {
     std::unordered_map<const void*, std::uint32_t> blob_numbers;
     std::unordered_map<GLuint, int> buffer_changes;
     std::size_t copied_bytes = 0; ///< of whole buffers
+    struct TextureUse {
+        GLenum target;
+        std::uint64_t draws; ///< when it was bound first, or copied last
+    };
+    std::unordered_map<GLuint, TextureUse> textures;
+    std::uint64_t draws = 0;
+    bool calls_lists = false; ///< which may bind any texture
+    std::optional<std::unordered_map<GLuint, GLenum>> list_textures; ///< their targets; found when first asked for
+    std::size_t texture_bytes = 0;
     std::string given_up; ///< why; empty while all is well
 };
 
@@ -136,6 +154,14 @@ struct Context {
         if (recording) ++recording->counts[std::size_t(call)];
     }
     void count(const std::string& reason, long times = 1);
+    void note_draw() {
+        if (recording) ++recording->draws;
+    }
+    void note_list_call() {
+        if (!recording) return;
+        ++recording->draws;
+        recording->calls_lists = true;
+    }
 
     /// Runs `write(stream)` for the list that is open, if this call compiles into lists, and for the frame,
     /// if the call is executed now. Out of memory ends the list or the frame, never the program.

@@ -314,6 +314,7 @@ void record_draw(const Call& call) {
         refresh_arrays(*context);
         if (!has_position(*context)) return;
         count_if_not_played(*context);
+        context->note_draw();
         Draw draw{*context, call, {}, {}, {}, !context->compilation};
         if (!read_draw(draw)) return context->count("a draw that reads beyond its arrays or buffers");
         if (draw.indices.used) context->emit(true, [&](Stream& stream) { write_draw(draw, stream); });

@@ -2,6 +2,7 @@
 #include "shim/record/lists.h"
 #include "shim/record/packets.h"
 #include "shim/record/snapshot.h"
+#include "shim/record/textures.h"
 
 namespace glcast::record {
 
@@ -25,6 +26,7 @@ void start_recording(Context& context) {
     recording->frame->prologue.most_bytes = recording->frame->calls.most_bytes = memory_limit;
     write_state(context, recording->frame->prologue, true);
     read_matrices(context, *recording);
+    note_bound_textures(*recording);
     const std::lock_guard lock(context.group->mutex);
     recording->frame->lists = context.group->lists;
     recording->seen_changes = context.group->changes.size();
@@ -86,6 +88,7 @@ const std::map<std::string, long>& not_understood(const Frame& frame) { return f
 std::size_t frame_bytes(const Frame& frame) {
     std::size_t sum = sizeof frame + frame.prologue.allocated_bytes() + frame.calls.allocated_bytes();
     for (const Blob& blob : frame.blobs) sum += blob->size();
+    for (const TextureCopy& copy : frame.textures) sum += copy.contents.allocated_bytes();
     for (const auto& [name, list] : frame.lists) sum += list->allocated_bytes();
     for (const List& list : frame.redefinitions) sum += list->allocated_bytes();
     return sum;

@@ -35,6 +35,7 @@ RECORDED, SHADOWED, PASSED = "recorded and replayed", "shadowed always", "passed
 NOTES = [(note, matcher(words)) for note, words in [
     ("what goes into the texture named 0: those with names are shared, and hold it when the frame is played",
      "(Compressed|Copy)?Tex(Sub)?Image[123]D TexParameter[fi]v? GenerateMipmap"),
+    ("happens once; what a texture held is copied first, if the frame may have drawn from it", "DeleteTextures"),
     ("flat: no part of a solid", "Bitmap DrawPixels"),
     ("draws under a program are counted and not cast", "UseProgram BindProgramPipeline VertexAttrib[1-4].*"),
     ("its captured geometry is counted as not understood", "EndTransformFeedback"),

@@ -148,6 +148,7 @@ const PlayFunction play_functions[] = {
     custom::play_draw,
     custom::play_define_list,
     custom::play_delete_list,
+    custom::play_end_texture,
 };
 static_assert(sizeof play_functions / sizeof *play_functions == std::size_t(ExtraOp::count_));
 } // namespace glcast::record
@@ -162,7 +163,7 @@ def write_all(rows, out):
     plays = [f"void play_{r.core.name}(Player& player, const Packet& packet);" for r in cores
              if r.play().startswith("custom")]
     plays += [f"void play_{extra}(Player& player, const Packet& packet);"
-              for extra in ("draw", "define_list", "delete_list")]
+              for extra in ("draw", "define_list", "delete_list", "end_texture")]
     (out / "packets.h").write_text(PACKETS % ("\n".join(types), "\n".join(records), "\n".join(plays)))
     shadowed = [r.command.name for r in rows if always_shadowed(r.core.name)]
     (out / "table.cpp").write_text(TABLE % (

@@ -9,6 +9,7 @@
 #include "shim/record/buffers.h"
 #include "shim/record/packets.h"
 #include "shim/record/snapshot.h"
+#include "shim/record/textures.h"
 
 namespace glcast::record {
 
@@ -133,10 +134,11 @@ void record_image(Context& context, const Image& image, const void* pixels, Writ
     }
 }
 
-/// The context, if a texture upload has to be kept: for a list, or for the texture named 0.
+/// Before an upload. The context, if it has to be kept: for a list, or for the texture named 0.
 Context* context_of_upload(GLenum target) {
     Context* context = listening_context();
     if (!context || !context->can_query()) return nullptr;
+    copy_before_change(*context, target);
     return context->compilation || binds_default_texture(context->real, target) ? context : nullptr;
 }
 

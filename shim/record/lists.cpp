@@ -188,6 +188,7 @@ void APIENTRY DeleteLists(GLuint list, GLsizei range) {
 void APIENTRY CallList(GLuint list) {
     if (Context* context = listening_context()) {
         note_list_changes(*context);
+        context->note_list_call();
         context->emit(true, [&](Stream& stream) { packets::CallList::write(stream, list); });
         follow_list(*context, list);
     }
@@ -198,6 +199,7 @@ void APIENTRY CallList(GLuint list) {
 void APIENTRY CallLists(GLsizei n, GLenum type, const void* lists) {
     if (Context* context = listening_context(); context && n > 0 && lists) {
         note_list_changes(*context);
+        context->note_list_call();
         try {
             std::vector<GLuint> numbers(static_cast<std::size_t>(n));
             bool known = true;

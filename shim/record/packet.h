@@ -111,8 +111,10 @@ struct Plain<member, replayed, op, traits, R (*GlTable::*)(A...)> {
         (writer.put(arguments), ...);
     }
     static R record(A... arguments) {
-        if (Context* context = listening_context())
+        if (Context* context = listening_context()) {
+            if constexpr (traits.draws) context->note_draw();
             context->emit(traits.compiles, [&](Stream& stream) { write(stream, arguments...); });
+        }
         return (this_thread.real->*member)(arguments...);
     }
     static void play(Player& player, const Packet& packet) {
@@ -150,8 +152,10 @@ struct Vector<member, replayed, op, traits, at, Size, R (*GlTable::*)(A...)> {
         if (bytes) writer.align(alignment).put_bytes(from, bytes);
     }
     static R record(A... arguments) {
-        if (Context* context = listening_context())
+        if (Context* context = listening_context()) {
+            if constexpr (traits.draws) context->note_draw();
             context->emit(traits.compiles, [&](Stream& stream) { write(stream, arguments...); });
+        }
         return (this_thread.real->*member)(arguments...);
     }
     static Arguments read(const Packet& packet) {

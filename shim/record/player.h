@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shim/record/context.h"
+#include "shim/record/texture_stand_ins.h"
 
 namespace glcast::record {
 
@@ -20,12 +21,13 @@ enum class ExtraOp : Op {
     draw = gl_call_count, ///< one glDrawArrays or glDrawElements with its arrays
     define_list,
     delete_list,
+    end_texture, ///< the program changes or deletes a texture: the copy of it is no longer what it draws from
     count_
 };
 
 class Player {
   public:
-    Player(const Frame& recorded, const GlTable& table) : gl(table), frame(recorded) {}
+    Player(const Frame& recorded, const GlTable& table) : gl(table), frame(recorded), textures(recorded, table) {}
     void run(const std::function<void()>& before_calls);
     void play(const Stream& stream);
     void call_list(GLuint name);
@@ -48,6 +50,7 @@ class Player {
     } state;
     const GlTable& gl;
     const Frame& frame;
+    TextureStandIns textures;
 
   private:
     void reset_client_state();

@@ -64,6 +64,11 @@ std::size_t frame_bytes(const Frame& frame);
 /// skipped and counted.
 void note_opaque_lists(Context& context, GLuint first, GLsizei count);
 
+/// Deletes the copies of textures that replays of the frame have made, in a context that shares objects with the
+/// program's. Nothing may be replayed after.
+bool has_copies(const Frame& frame);
+void delete_copies(const Frame& frame, const GlTable& gl);
+
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
 /// and attribute stacks of the context are emptied first, so it can be called again and again. `gl` may be an

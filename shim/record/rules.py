@@ -19,7 +19,7 @@ CLASSES = [
         DrawArrays DrawElements DrawRangeElements MultiDrawArrays MultiDrawElements
         Draw(Arrays|Elements)Instanced(BaseVertex)?(BaseInstance)? Draw(Range)?ElementsBaseVertex
         MultiDrawElementsBaseVertex
-        DeleteBuffers EndTransformFeedback
+        DeleteBuffers EndTransformFeedback BindTexture DeleteTextures GenerateMipmap
         Bitmap DrawPixels PolygonStipple Tex(Sub)?Image[123]D CompressedTex(Sub)?Image[123]D CopyTex(Sub)?Image[123]D
         Map[12][df]"""),
     ("arrays", r"""(Vertex|Normal|Color|SecondaryColor|FogCoord|Index|EdgeFlag|TexCoord)Pointer(EXT)?
@@ -59,7 +59,7 @@ CLASSES = [
         .*FragmentShaderATI PassTexCoordATI SampleMapATI (Color|Alpha)FragmentOp[123]ATI SetFragmentShaderConstantATI
         Combiner.*NV FinalCombinerInputNV (Begin|End)OcclusionQueryNV SamplePattern(EXT|SGIS) VertexWeighthv?NV
         VertexAttribs[1-4]hvNV (Set|Finish)Fence(NV|APPLE) FinishObjectAPPLE SampleMask(EXT|SGIS)"""),
-    ("plain", r"""ActiveTexture AlphaFunc BindTexture Blend(Color|Equation|EquationSeparate|Func|FuncSeparate)
+    ("plain", r"""ActiveTexture AlphaFunc Blend(Color|Equation|EquationSeparate|Func|FuncSeparate)
         Clear Clear(Accum|Color|Depth|Depthf|Index|Stencil) ClipPlane Color[34][bdfisu]+v? ColorMask ColorMaterial CullFace
         Depth(Func|Mask|Range|Rangef) DepthBoundsEXT DrawBuffer DrawBuffers EdgeFlagv? EvalCoord[12][df]v? EvalMesh[12]
         EvalPoint[12] Fog(Coord)?(f|i|d|fv|iv|dv) FrontFace Frustum Index[dfisub]+v? IndexMask Light(Model)?[fi]v?
@@ -69,7 +69,7 @@ CLASSES = [
         PushMatrix RasterPos[234][dfis]v? Rect[dfis] Rotate[df] Scale[df] Scissor SecondaryColor3[bdfisu]+v? ShadeModel
         Stencil(Func|Mask|Op)(Separate)? TexCoord[1-4][dfis]v? TexEnv[fi]v? TexGen[dfi]v? TexParameter[fi]v?
         Translate[df] Vertex[234][dfis]v? VertexAttrib[1-4][dfs]v? VertexAttrib4N?(b|ub|i|ui|s|us)v? VertexAttrib4Nub
-        (Vertex|TexCoord|MultiTexCoord|Normal|Color|SecondaryColor|VertexAttrib)P[1-4]uiv? Viewport WindowPos[23][dfis]v? BindFramebuffer(EXT)? ProvokingVertex ClampColor GenerateMipmap PolygonOffsetClamp
+        (Vertex|TexCoord|MultiTexCoord|Normal|Color|SecondaryColor|VertexAttrib)P[1-4]uiv? Viewport WindowPos[23][dfis]v? BindFramebuffer(EXT)? ProvokingVertex ClampColor PolygonOffsetClamp
         (Vertex[234]|Normal3|Color[34]|SecondaryColor3|TexCoord[1-4]|MultiTexCoord[1-4]|FogCoord)hv?NV VertexAttrib[1-4]hv?NV
         PrimitiveRestartNV WindowPos4[dfis]v?MESA
         Matrix(LoadIdentity|(Load|Mult)(Transpose)?[df]|(Rotate|Scale|Translate)[df]|Frustum|Ortho|Push|Pop)EXT"""),
@@ -151,7 +151,8 @@ SIZES = [
 ]
 
 # Same meaning, though the registry does not call them aliases.
-ALIASES = {"BindFramebufferEXT": "BindFramebuffer", "BindVertexArrayAPPLE": "BindVertexArray"}
+ALIASES = {"BindFramebufferEXT": "BindFramebuffer", "BindVertexArrayAPPLE": "BindVertexArray",
+           "DeleteTexturesEXT": "DeleteTextures"}
 
 # Through table() even while nothing is recorded: display lists cannot be read back. All else is queried when needed.
 ALWAYS_SHADOWED = r"NewList EndList DeleteLists"

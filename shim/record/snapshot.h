@@ -18,6 +18,13 @@ void write_evaluators(Context& context, Stream& stream);
 /// One level of the texture that is bound, as an upload. False when there is none.
 bool write_level(Context& context, Stream& stream, GLenum target, GLint level);
 
+/// All levels of the texture that is bound, and its parameters.
+void write_texture(Context& context, Stream& stream, GLenum target);
+
+/// The query for what is bound to a target of textures or to a face of a cube; 0 for proxies and targets that fixed
+/// functions have not. `object`: the target that the texture itself has.
+GLenum texture_binding(GLenum target, GLenum* object = nullptr);
+
 /// Whether the texture object named 0 is bound to a target. False for proxies and targets that fixed
 /// functions have not.
 bool binds_default_texture(const GlTable& gl, GLenum target);

@@ -177,12 +177,25 @@ void write_texture_parameters(Context& context, Stream& stream, GLenum target) {
 
 } // namespace
 
-bool binds_default_texture(const GlTable& gl, GLenum target) {
+GLenum texture_binding(GLenum target, GLenum* object) {
     if (target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z)
         target = GL_TEXTURE_CUBE_MAP;
+    if (object) *object = target;
     for (const TargetBinding& row : bindings)
-        if (row.target == target) return get_int(gl, row.binding, -1) == 0;
-    return false;
+        if (row.target == target) return row.binding;
+    return 0;
+}
+
+bool binds_default_texture(const GlTable& gl, GLenum target) {
+    const GLenum binding = texture_binding(target);
+    return binding && get_int(gl, binding, -1) == 0;
+}
+
+void write_texture(Context& context, Stream& stream, GLenum target) {
+    // Levels first: with GL_GENERATE_MIPMAP set, giving level 0 would make the others anew.
+    packets::TexParameteri::write(stream, target, GL_GENERATE_MIPMAP, GL_FALSE);
+    write_levels(context, stream, target);
+    write_texture_parameters(context, stream, target);
 }
 
 bool write_level(Context& context, Stream& stream, GLenum target, GLint level) {
@@ -253,10 +266,7 @@ void write_default_textures(Context& context, Stream& stream) {
         const auto bound = GLuint(get_int(gl, row.binding));
         if (bound) gl.BindTexture(row.target, 0);
         packets::BindTexture::write(stream, row.target, 0);
-        // Levels first: with GL_GENERATE_MIPMAP set, giving level 0 would make the others anew.
-        packets::TexParameteri::write(stream, row.target, GL_GENERATE_MIPMAP, GL_FALSE);
-        write_levels(context, stream, row.target);
-        write_texture_parameters(context, stream, row.target);
+        write_texture(context, stream, row.target);
         packets::BindTexture::write(stream, row.target, bound);
         if (bound) gl.BindTexture(row.target, bound);
     }

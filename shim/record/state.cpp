@@ -72,6 +72,7 @@ void APIENTRY Begin(GLenum mode) {
         if (context->can_query())
             prepare_arrays(*context); // glArrayElement comes where nothing can be queried
         count_if_not_played(*context);
+        context->note_draw();
         context->emit(true, [&](Stream& stream) { packets::Begin::write(stream, mode); });
         set_begin(*context, true);
     }
@@ -87,23 +88,31 @@ void APIENTRY End() {
 }
 
 void APIENTRY Rectdv(const GLdouble* a, const GLdouble* b) {
-    if (Context* context = listening_context())
+    if (Context* context = listening_context()) {
+        context->note_draw();
         context->emit(true, [&](Stream& stream) { packets::Rectd::write(stream, a[0], a[1], b[0], b[1]); });
+    }
     this_thread.real->Rectdv(a, b);
 }
 void APIENTRY Rectfv(const GLfloat* a, const GLfloat* b) {
-    if (Context* context = listening_context())
+    if (Context* context = listening_context()) {
+        context->note_draw();
         context->emit(true, [&](Stream& stream) { packets::Rectf::write(stream, a[0], a[1], b[0], b[1]); });
+    }
     this_thread.real->Rectfv(a, b);
 }
 void APIENTRY Rectiv(const GLint* a, const GLint* b) {
-    if (Context* context = listening_context())
+    if (Context* context = listening_context()) {
+        context->note_draw();
         context->emit(true, [&](Stream& stream) { packets::Recti::write(stream, a[0], a[1], b[0], b[1]); });
+    }
     this_thread.real->Rectiv(a, b);
 }
 void APIENTRY Rectsv(const GLshort* a, const GLshort* b) {
-    if (Context* context = listening_context())
+    if (Context* context = listening_context()) {
+        context->note_draw();
         context->emit(true, [&](Stream& stream) { packets::Rects::write(stream, a[0], a[1], b[0], b[1]); });
+    }
     this_thread.real->Rectsv(a, b);
 }
 
@@ -165,6 +174,7 @@ void play_PushAttrib(Player& player, const Packet& packet) {
 void play_PopAttrib(Player& player, const Packet& packet) {
     player.pop_attrib();
     packets::PopAttrib::play(player, packet);
+    player.textures.refresh(); // it may have brought back one that has changed since
 }
 
 GLint APIENTRY RenderMode(GLenum mode) {
@@ -195,15 +205,6 @@ void APIENTRY BindProgramPipeline(GLuint pipeline) {
 
 void play_BindProgramPipeline(Player& player, const Packet& packet) {
     player.set_skip(Player::pipeline, Reader(packet).get<GLuint>() != 0);
-}
-
-void play_BindTexture(Player& player, const Packet& packet) {
-    Reader reader(packet);
-    const auto target = reader.get<GLenum>();
-    auto name = reader.get<GLuint>();
-    // Binding a name that the program has deleted would make it anew, in the program's own name space.
-    if (name && !player.gl.IsTexture(name)) name = 0;
-    player.gl.BindTexture(target, name);
 }
 
 } // namespace glcast::record::custom

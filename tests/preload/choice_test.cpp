@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <set>
+#include <tuple>
 
 #include "tests/preload/program_run.h"
 
@@ -176,6 +178,20 @@ TEST(Signal, asks_for_a_frame_and_the_programs_handler_runs) {
     expect_the_body(run);
     EXPECT_EQ(run.capture->info.frame, 3); // it came during the second
     EXPECT_EQ(run.outcome.out, "handled 1\n");
+}
+
+TEST(Textures, that_change_and_go_in_a_frame_are_seen_as_each_draw_saw_them) {
+    const Outcome plain = run_program({SCENES, "refilled"}, {}, false);
+    const SceneRun run = cast("refilled", {{"GLCAST_FRAME_MATRIX", "base"}});
+    EXPECT_EQ(run.outcome.out, plain.out); // pixels and errors
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    std::set<std::tuple<int, int, int>> colours;
+    for (const ViewImage& image : run.capture->images)
+        for (std::size_t i = 0; i < image.depth.size(); ++i)
+            if (image.covered(i) && image.view.layer == 0)
+                colours.emplace(image.colour[i].r * 255, image.colour[i].g * 255, image.colour[i].b * 255);
+    const std::set<std::tuple<int, int, int>> drawn = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+    EXPECT_EQ(colours, drawn);
 }
 
 } // namespace

@@ -103,5 +103,37 @@ TEST(Window, has_the_title_of_the_one_that_it_is_in) {
     EXPECT_TRUE(says(run, "\"Main window\"")) << run.outcome.err;
 }
 
+class WhileTheServerIsHeld : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(WhileTheServerIsHeld, the_program_runs_on) {
+    const auto& [variable, value] = GetParam();
+    const TemporaryFolder folder;
+    const Environment environment = {{variable, *value ? value : folder / "list.png"}};
+    for (const char* kind : {"grabs", "grabs_alone"}) {
+        SCOPED_TRACE(kind);
+        const WindowRun run = cast(kind, environment);
+        EXPECT_TRUE(says(run, "the X server does not answer while the program swaps") ||
+                    (std::string(kind) == "grabs_alone" && std::string(variable) == "GLCAST_N"))
+            << run.outcome.err;
+        if (std::string(variable) == "GLCAST_LIST")
+            EXPECT_TRUE(says(run, "group 1 ")) << run.outcome.err;
+        else
+            EXPECT_NEAR(run.extent, body_edge, 0.02) << run.outcome.err;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Questions, WhileTheServerIsHeld,
+                         testing::Values(std::pair("GLCAST_N", "64"), std::pair("GLCAST_LIST", ""),
+                                         std::pair("GLCAST_WINDOW", "Model")),
+                         [](const auto& info) { return std::string(info.param.first); });
+
+TEST(Window, the_server_s_silence_is_counted) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_program(
+        {WINDOWS, "grabs"}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "32"}, {"GLCAST_WINDOW", "Model"}}, true);
+    ASSERT_TRUE(std::filesystem::exists(folder / "cast.exr")) << outcome.err;
+    const auto counted = read_capture(folder / "cast.exr").info.not_understood;
+    EXPECT_TRUE(counted.contains("questions about windows that the X server did not answer in time"));
+}
+
 } // namespace
 } // namespace glcast::test

@@ -321,6 +321,47 @@ static void cloud(void) {
     glEnd();
 }
 
+static void textured_box(float x) {
+    const float lo[3] = {x, 0, 0}, hi[3] = {x + 0.5f, 1, 1};
+    draw_box(lo, hi);
+}
+
+static void fill_texture(GLubyte r, GLubyte g, GLubyte b) {
+    const GLubyte texel[] = {r, g, b, 255};
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texel);
+}
+
+/* Boxes at x = 0, 1 and 2 in red, green and blue: one texture filled twice, and another that is deleted once used.
+ * The program counts on its names. */
+static void refilled(void) {
+    static GLuint first;
+    GLuint last = 0;
+    clear();
+    lit(0);
+    camera(1);
+    glColor3f(1, 1, 1);
+    glEnable(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    if (!first) glGenTextures(1, &first);
+    glBindTexture(GL_TEXTURE_2D, first);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    fill_texture(255, 0, 0);
+    textured_box(0);
+    fill_texture(0, 255, 0);
+    textured_box(1);
+    glGenTextures(1, &last);
+    glBindTexture(GL_TEXTURE_2D, last);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    fill_texture(0, 0, 255);
+    textured_box(2);
+    glDeleteTextures(1, &last);
+    GLubyte pixels[4 * size] = {0};
+    glReadPixels(0, size / 2, size, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    unsigned sum = 0;
+    for (int i = 0; i < 4 * size; ++i) sum = sum * 31 + pixels[i];
+    printf("%x %x %d\n", sum, glGetError(), glIsTexture(last));
+}
+
 /* Waits for a key as a program with a window does, drawing all the while; a few frames later it ends. */
 static void keys(void) {
     int left = 2000, pressed = 0;
@@ -365,6 +406,7 @@ int main(int argc, char** argv) {
         if (IS("glass")) glass();
         if (IS("wires")) wires();
         if (IS("cloud")) cloud();
+        if (IS("refilled")) refilled();
         if (IS("signals") && frame == 2) raise(SIGUSR1);
         glXSwapBuffers(display, window);
     }

@@ -3,6 +3,8 @@
  * late        the same, but the model's first frame is empty
  * threads     the same, each in a thread of its own, over a connection of its own
  * quad        a CAD program: the body in "Top", "Front" and "Side", orthographic, and in "Perspective"
+ * grabs       as two, and holds the X server for itself while it swaps
+ * grabs_alone the same with the model's window alone
  * idle        the box in "Tool box"; "Model" is on the screen and is never drawn to
  * nested      the body in a window without a title, in one that is called "Main window" */
 #include <pthread.h>
@@ -10,6 +12,9 @@
 #include <unistd.h>
 
 #include "window.h"
+
+static const struct timespec pause_between = {0, 10000000};
+static int grabs;
 
 static void set_camera(int perspective) {
     glEnable(GL_DEPTH_TEST);
@@ -49,10 +54,17 @@ static void draw(const View* view, int what, int perspective) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     if (what == 1) draw_box(lo, hi);
     if (what == 2) draw_chiral();
+    if (grabs) {
+        XGrabServer(view->display);
+        XSync(view->display, False);
+    }
     glXSwapBuffers(view->display, view->window);
+    if (grabs) {
+        XUngrabServer(view->display);
+        XSync(view->display, False);
+        nanosleep(&pause_between, 0);
+    }
 }
-
-static const struct timespec pause_between = {0, 10000000};
 
 static void* draw_on(void* given) {
     View* view = given;
@@ -105,6 +117,12 @@ int main(int argc, char** argv) {
     if (strcmp(kind, "quad") == 0) return quad();
     if (strcmp(kind, "nested") == 0) return nested();
     const int late = strcmp(kind, "late") == 0, idle = strcmp(kind, "idle") == 0;
+    grabs = strncmp(kind, "grabs", 5) == 0;
+    if (strcmp(kind, "grabs_alone") == 0) {
+        const View only = make_view("Model", 0);
+        for (int frame = 0; frame < 4; ++frame) draw(&only, 2, 1);
+        return 0;
+    }
     const View small = make_view("Tool box", 0), large = make_view("Model", 0);
     for (int frame = 0; frame < (idle ? 1 : 4); ++frame) {
         draw(&small, 1, 1);
