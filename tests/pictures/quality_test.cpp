@@ -70,7 +70,8 @@ TEST(Quality, ValuesAreScikitImages) {
 
 TEST(Quality, SamplesOfAPixel) {
     Picture in{4, 2, {}};
-    for (const int v : {0, 1, 10, 20, 2, 3, 30, 255}) in.rgb.insert(in.rgb.end(), {std::uint8_t(v), 7, std::uint8_t(255 - v)});
+    for (const int v : {0, 1, 10, 20, 2, 3, 30, 255})
+        in.rgb.insert(in.rgb.end(), {std::uint8_t(v), 7, std::uint8_t(255 - v)});
     const Picture mean = antialiased(in, 2), one = one_sample(in, 2);
     EXPECT_EQ(mean.width, 2);
     EXPECT_EQ(mean.height, 1);

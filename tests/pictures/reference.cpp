@@ -92,7 +92,9 @@ struct PictureSum {
         worst = std::max(worst, view.squares.mean());
         ssim += view.ssim;
     }
-    Likeness over(std::size_t views) const { return {psnr(squares.mean()), psnr(worst), ssim / double(views)}; }
+    Likeness over(std::size_t views) const {
+        return {psnr(squares.mean()), psnr(worst), ssim / double(views)};
+    }
 };
 struct ViewError {
     PictureSum antialiased, one_sample;

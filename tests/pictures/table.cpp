@@ -68,12 +68,13 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
                 {"psnrCovered", error.psnr_covered},
                 {"psnrInside", error.psnr_inside},
                 {"backgroundShare", error.background_share}};
-    std::fprintf(stderr,
-                 "%-12s %-14s %7zu triangles: mean %.4f samples, %.2f dB (one sample %.2f, inside %.2f, worst view "
-                 "%.2f), SSIM %.4f\n",
-                 context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
-                 row["meanError"].get<double>() / context.sample, error.antialiased.psnr, error.one_sample.psnr,
-                 error.psnr_inside, error.antialiased.psnr_worst, error.antialiased.ssim);
+    std::fprintf(
+        stderr,
+        "%-12s %-14s %7zu triangles: mean %.4f samples, %.2f dB (one sample %.2f, inside %.2f, worst view "
+        "%.2f), SSIM %.4f\n",
+        context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
+        row["meanError"].get<double>() / context.sample, error.antialiased.psnr, error.one_sample.psnr,
+        error.psnr_inside, error.antialiased.psnr_worst, error.antialiased.ssim);
     context.rows.push_back(row);
     return row;
 }
@@ -152,7 +153,8 @@ void run(const Options& options) {
         context.truth = read_levels(options.levels)[0].mesh;
     }
     if (!options.pictures.empty())
-        write_png(options.pictures + "/" + options.name + "-original.png", antialiased(lit(fullest(context.views)), options.samples));
+        write_png(options.pictures + "/" + options.name + "-original.png",
+                  antialiased(lit(fullest(context.views)), options.samples));
     add_levels(context, options.levels, "vertex colours");
     if (!options.textured.empty()) add_levels(context, options.textured, "textured");
     if (context.known) add_simplified(context);
