@@ -327,6 +327,7 @@ class Cast {
         for (const glm::dmat4& rotation : reference_rotations(options.reference_views)) {
             EngineOptions engine = captured_with;
             engine.most_layers = 1;
+            if (options.reference_n > 0) info.n = engine.n = options.reference_n;
             engine.eye_to_capture = rotation * captured_with.eye_to_capture;
             engine.search = turned_box(*captured_with.box, rotation);
             const DrawFunction draw = solid(candidate, engine);

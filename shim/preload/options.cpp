@@ -163,6 +163,11 @@ constexpr Variable variables[] = {
          return parse_number(t, o.reference_views) && o.reference_views >= 1 &&
                 o.reference_views <= max_reference_views && !o.box;
      }},
+    {"GLCAST_REFERENCE_N", "a whole number from 8 to 8192",
+     [](const std::string& t, Options& o) {
+         return parse_number(t, o.reference_n) && o.reference_n >= min_resolution &&
+                o.reference_n <= max_resolution;
+     }},
     {"GLCAST_WINDOW", "a window's number, its id with 0x, or a part of its title",
      [](const std::string& t, Options& o) { return !(o.window = t).empty(); }},
     {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},

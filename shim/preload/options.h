@@ -60,6 +60,7 @@ struct Options {
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
     int reference_views = 0; ///< GLCAST_REFERENCE_VIEWS: so many further views beside the capture (capture/reference_views.h)
+    int reference_n = 0; ///< GLCAST_REFERENCE_N: their resolution; 0: that of the capture
     std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a part of
                         ///< its title; empty: the one that shows most
     Mask mask; ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Writes docs/levels.md, and its pictures, of what picture-table measured.
 
-Usage: levels_page.py PROGRAMS.txt FOLDER DOCS
+Usage: levels_page.py PROGRAMS.txt FOLDER DOCS KEY
+
+Only what KEY made is in the page (FOLDER/NAME.json.by), so that all numbers are of the same binaries.
 """
 import json
 import subprocess
@@ -14,45 +16,65 @@ WANTED_DB = 35
 
 HEAD = """# What levels of detail look like
 
-Written by `tests/pictures/make-table BUILD OUT`. Each program was cast at n = {n} and the same frame drawn from {views} further sides
-(`GLCAST_REFERENCE_VIEWS`, [capture-format.md](capture-format.md)): no pixel of them took part in making the cast. Each level is drawn into the same
-pixels, both are lit by one function (ambient .3, .45 from the camera, .25 from its upper left, with the normals that were drawn) on light grey,
-and compared as 8-bit pictures.
+Written by `tests/pictures/make-table BUILD OUT`, all numbers by the same binaries. Each program was cast at n = {n} and the same frame drawn
+from {views} further sides at n = {fine} (`GLCAST_REFERENCE_VIEWS`, `GLCAST_REFERENCE_N`, [capture-format.md](capture-format.md)): no pixel of them
+took part in making the cast. Each level is drawn at the same {fine} x {fine} places, both are lit by one function (ambient .3, .45 from the camera,
+.25 from its upper left, with the normals that were drawn) on light grey, and both become 8-bit pictures of {width} x {width} pixels in the same two ways:
 
-*Error*: the larger of the mean distances there and back (`glcast compare`), in samples; against the program's own mesh where that is known (points
-that nobody can see left out), else against the full surface of the cast. *dB*: PSNR over all pixels of all views, background too; *inside*: over
-the pixels alone that both original and level cover, so colour and light without the outline; *SSIM*: Wang et al. 2004, mean of the views. OpenMesh (DecimaterT, ModQuadricT), meshoptimizer
-(meshopt_simplify) and CGAL (edge_collapse, Lindstrom-Turk) simplify the program's own mesh, to the same count, with normals and colours of the nearest
-point of the original. In bold: {wanted} dB and more.
+- *dB*, *SSIM*: antialiased. A pixel is the mean of its {samples} x {samples} samples, after light, as viewers show it.
+- *one sample*: a pixel is one of these samples. Whole pixels flip where the outline moves by a small part of one, and that is most of this error.
+
+*dB* and *one sample* are PSNR over all pixels of all views, background too. *inside*: PSNR over the samples alone that both original and level
+cover, not averaged: colour and light without the outline. *SSIM*: Wang et al. 2004, mean of the views. *Error*: the larger of the mean distances
+there and back (`glcast compare`), in samples of the cast; against the program's own mesh where that is known (points that nobody can see left out), else
+against the full surface of the cast. OpenMesh (DecimaterT, ModQuadricT), meshoptimizer (meshopt_simplify) and CGAL (edge_collapse,
+Lindstrom-Turk) simplify the program's own mesh, to the same count, with normals and colours of the nearest point of the original. In bold: {wanted} dB
+and more.
+
+## Textured at 2,000 triangles
+
+The target is {wanted} dB.
 
 """
 
 
-def rows_of(folder, names):
+def met(decibels):
+    return f"{decibels:.1f}, {'met' if decibels >= WANTED_DB else 'not met'}"
+
+
+def summary(sections):
+    lines = ["| | antialiased | one sample a pixel | full surface with colours of vertices | inside |", "|---|---|---|---|---|"]
+    for name, rows in sections:
+        row = next(row for row in rows if row["how"] == "textured" and row["target"] == 2_000)
+        full = next(row for row in rows if row["how"] == "full surface")
+        lines.append(f"| {name} | {met(row['psnr'])} | {met(row['psnrOneSample'])} | {full['psnr']:.1f} | {row['psnrInside']:.1f} |")
+    return "\n".join(lines)
+
+
+def rows_of(folder, names, key):
     for name in names:
         path = folder / f"{name}.json"
-        if path.exists():
+        by = folder / f"{name}.json.by"
+        if path.exists() and by.exists() and by.read_text().strip() == key:
             yield name, json.loads(path.read_text())
 
 
 def cells(row):
     if row is None:
-        return " – | – | – | – |"
-    decibels = f"{row['psnr']:.1f}"
-    if row["psnr"] >= WANTED_DB:
-        decibels = f"**{decibels}**"
-    return f" {row['meanError'] / row['sample']:.3f} | {decibels} | {row['psnrInside']:.1f} | {row['ssim']:.4f} |"
+        return " – | – | – | – | – |"
+    def shown(decibels):
+        return f"**{decibels:.1f}**" if decibels >= WANTED_DB else f"{decibels:.1f}"
+    return (f" {row['meanError'] / row['sample']:.3f} | {shown(row['psnr'])} | {shown(row['psnrOneSample'])} | {row['psnrInside']:.1f} | "
+            f"{row['ssim']:.4f} |")
 
 
 def table(rows):
     find = {(row["how"], row["target"]): row for row in rows}
-    lines = ["| |" + "".join(f" {t:,}: error | dB | inside | SSIM |" for t in TARGETS),
-             "|---|" + "---|---|---|---|" * len(TARGETS)]
+    lines = ["| |" + "".join(f" {t:,}: error | dB | one sample | inside | SSIM |" for t in TARGETS),
+             "|---|" + "---|---|---|---|---|" * len(TARGETS)]
     for how in HOWS:
         if any((how, target) in find for target in TARGETS):
             lines.append(f"| {how} |" + "".join(cells(find.get((how, target))) for target in TARGETS))
-    if rows[0]["against"] == "the program's mesh" and ("CGAL", TARGETS[-1]) not in find:
-        lines.append("\nOther simplifiers of the program's mesh were not measured in this run.")
     return "\n".join(lines)
 
 
@@ -62,9 +84,10 @@ def limits(rows):
     for row in rows:
         if row["how"] in ("full surface", "original"):
             name = "the full surface" if row["how"] == "full surface" else "the original mesh itself"
-            parts.append(f"{name} ({row['triangles']:,} triangles) {row['psnr']:.1f} dB, SSIM {row['ssim']:.4f}")
+            parts.append(f"{name} ({row['triangles']:,} triangles) {row['psnr']:.1f} dB (one sample {row['psnrOneSample']:.1f}, inside {row['psnrInside']:.1f}), SSIM "
+                         f"{row['ssim']:.4f}")
     background = rows[0]["backgroundShare"]
-    return (f"Drawn the same way: {'; '.join(parts)}. {100 * background:.0f} % of the pixels are background; errors are against {rows[0]['against']}.")
+    return (f"Drawn the same way: {'; '.join(parts)}. {100 * background:.0f} % of the samples are background; errors are against {rows[0]['against']}.")
 
 
 def picture(folder, name, docs):
@@ -80,24 +103,23 @@ def picture(folder, name, docs):
 
 
 def main():
-    programs, folder, docs = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3])
+    programs, folder, docs, key = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
     names, commands = [], {}
     for line in programs.read_text().splitlines():
         if line.strip() and not line.startswith("#"):
             name, _, command = (part.strip() for part in line.split("|"))
             names.append(name)
             commands[name] = command
-    sections, first = [], None
-    for name, rows in rows_of(folder, names):
-        first = first or rows[0]
-        sections.append(f"## {name}\n\n`{commands[name].replace('DATA/', '').replace('FIXTURES/', '').replace('SAVERS/', '')}`. "
-                        f"{limits(rows)}\n\n{table(rows)}\n\n{picture(folder, name, docs)}")
-    if not sections:
+    measured = list(rows_of(folder, names, key))
+    if not measured:
         sys.exit("levels_page.py: nothing was measured")
-    head = HEAD.format(n=first["n"], views=first["views"], wanted=WANTED_DB)
-    if any("textured-500" in part.name for part in folder.glob("*.png")):
-        head += "Pictures: original; 500 triangles with colours of vertices; 500 triangles textured.\n\n"
-    (docs / "levels.md").write_text(head + "\n".join(sections))
+    first = measured[0][1][0]
+    sections = [f"## {name}\n\n`{commands[name].replace('DATA/', '').replace('FIXTURES/', '').replace('SAVERS/', '')}`. "
+                f"{limits(rows)}\n\n{table(rows)}\n\n{picture(folder, name, docs)}" for name, rows in measured]
+    head = HEAD.format(n=first["n"], views=first["views"], wanted=WANTED_DB, samples=first["samples"], width=first["width"],
+                       fine=first["samples"] * first["width"])
+    notes = Path(__file__).with_name("levels_notes.md")
+    (docs / "levels.md").write_text(f"{head}{summary(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
 
 
 main()

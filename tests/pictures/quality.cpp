@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace glcast::pictures {
 namespace {
@@ -64,6 +65,22 @@ Plane filtered(const Plane& in) {
     return out;
 }
 
+/// `pixel(block's first sample, channel)` of each block.
+template <class Pixel> Picture of_blocks(const Picture& in, int samples, const Pixel& pixel) {
+    if (samples < 1 || in.width % samples || in.height % samples)
+        throw std::invalid_argument("a picture of " + std::to_string(in.width) + " x " +
+                                    std::to_string(in.height) + " has no blocks of " +
+                                    std::to_string(samples));
+    Picture out{in.width / samples, in.height / samples, {}};
+    out.rgb.reserve(std::size_t(out.width) * std::size_t(out.height) * 3);
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x)
+            for (std::size_t c = 0; c < 3; ++c)
+                out.rgb.push_back(
+                    pixel((std::size_t(y) * in.width + std::size_t(x)) * std::size_t(samples), c));
+    return out;
+}
+
 Plane product(const Plane& a, const Plane& b) {
     Plane out = a;
     for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] *= b.values[i];
@@ -102,6 +119,24 @@ double ssim(const Picture& a, const Picture& b) {
         sum += (2 * mx * my + c1) * (2 * covariance + c2) / ((mx * mx + my * my + c1) * (vx + vy + c2));
     }
     return sum / double(mean_x.values.size());
+}
+
+Picture antialiased(const Picture& picture, int samples) {
+    const unsigned count = unsigned(samples * samples);
+    return of_blocks(picture, samples, [&](std::size_t first, std::size_t c) {
+        unsigned sum = 0;
+        for (int j = 0; j < samples; ++j)
+            for (int i = 0; i < samples; ++i)
+                sum += picture.rgb[(first + std::size_t(j) * picture.width + i) * 3 + c];
+        return std::uint8_t((sum + count / 2) / count);
+    });
+}
+
+Picture one_sample(const Picture& picture, int samples) {
+    const std::size_t inward = std::size_t(samples / 2);
+    return of_blocks(picture, samples, [&](std::size_t first, std::size_t c) {
+        return picture.rgb[(first + inward * std::size_t(picture.width) + inward) * 3 + c];
+    });
 }
 
 } // namespace glcast::pictures

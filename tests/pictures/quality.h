@@ -26,4 +26,10 @@ double psnr(double mean_squared_error);
 /// .03), of luminance (.299 R + .587 G + .114 B). 1: the same. Pictures are at least 11 pixels wide and high.
 double ssim(const Picture& a, const Picture& b);
 
+/// A picture that was drawn with `samples` x `samples` samples a pixel: the mean of each block, of display
+/// values, or one of its samples (below and right of the middle). Throws std::invalid_argument where it does
+/// not divide.
+Picture antialiased(const Picture& picture, int samples);
+Picture one_sample(const Picture& picture, int samples);
+
 } // namespace glcast::pictures

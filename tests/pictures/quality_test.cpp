@@ -68,6 +68,20 @@ TEST(Quality, ValuesAreScikitImages) {
     EXPECT_NEAR(psnr(squared_error(pattern(), noisy()).mean()), 26.842673417147573, 1e-9);
 }
 
+TEST(Quality, SamplesOfAPixel) {
+    Picture in{4, 2, {}};
+    for (const int v : {0, 1, 10, 20, 2, 3, 30, 255})
+        in.rgb.insert(in.rgb.end(), {std::uint8_t(v), 7, std::uint8_t(255 - v)});
+    const Picture mean = antialiased(in, 2), one = one_sample(in, 2);
+    EXPECT_EQ(mean.width, 2);
+    EXPECT_EQ(mean.height, 1);
+    EXPECT_EQ(mean.rgb, (std::vector<std::uint8_t>{2, 7, 254, 79, 7, 176})); // 1.5, 253.5, 78.75, 176.25
+    EXPECT_EQ(one.rgb, (std::vector<std::uint8_t>{3, 7, 252, 255, 7, 0}));
+    EXPECT_EQ(antialiased(in, 1).rgb, in.rgb);
+    EXPECT_THROW(antialiased(in, 4), std::invalid_argument);
+    EXPECT_THROW(one_sample(in, 0), std::invalid_argument);
+}
+
 TEST(Quality, OtherSizesAreRefused) {
     Picture small{16, 16, std::vector<std::uint8_t>(16 * 16 * 3)};
     EXPECT_THROW(squared_error(pattern(), small), std::invalid_argument);

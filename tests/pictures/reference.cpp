@@ -82,16 +82,40 @@ std::vector<char> without_light(const ReferenceView& view) {
     return dark;
 }
 
+/// Of one view, or summed up over some.
+struct PictureSum {
+    SquaredError squares;
+    double worst = 0, ssim = 0;
+
+    void operator+=(const PictureSum& view) {
+        squares += view.squares;
+        worst = std::max(worst, view.squares.mean());
+        ssim += view.ssim;
+    }
+    Likeness over(std::size_t views) const {
+        return {psnr(squares.mean()), psnr(worst), ssim / double(views)};
+    }
+};
 struct ViewError {
+    PictureSum antialiased, one_sample;
     SquaredError all, inside;
-    std::size_t covered = 0; ///< pixels
-    double ssim = 0;
+    std::size_t covered = 0; ///< samples
+
+    void operator+=(const ViewError& view) {
+        antialiased += view.antialiased, one_sample += view.one_sample;
+        all += view.all, inside += view.inside;
+        covered += view.covered;
+    }
 };
 
-ViewError compare(const Mesh& mesh, const Texture& texture, const ReferenceView& view) {
+PictureSum compare(const Picture& a, const Picture& b) { return {squared_error(a, b), 0, ssim(a, b)}; }
+
+ViewError compare(const Mesh& mesh, const Texture& texture, const ReferenceView& view, int samples) {
     const SeenImage level = rasterise(mesh, texture, view.camera);
     const Picture a = lit(view), b = lit(level, view);
-    ViewError error{squared_error(a, b), error_inside(a, b, view.seen.covered, level.covered), 0, ssim(a, b)};
+    ViewError error{compare(antialiased(a, samples), antialiased(b, samples)),
+                    compare(one_sample(a, samples), one_sample(b, samples)), squared_error(a, b),
+                    error_inside(a, b, view.seen.covered, level.covered), 0};
     for (std::size_t p = 0; p < level.covered.size(); ++p)
         error.covered += level.covered[p] || view.seen.covered[p];
     return error;
@@ -160,28 +184,21 @@ Picture lit(const SeenImage& level, const ReferenceView& where) {
     return light_up(level, where.camera, &dark);
 }
 
-PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views) {
+PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views,
+                           int samples) {
     std::vector<ViewError> errors(views.size());
     tbb::parallel_for(std::size_t(0), views.size(),
-                      [&](std::size_t k) { errors[k] = compare(mesh, texture, views[k]); });
-    SquaredError all, inside;
-    double worst = 0, ssim_sum = 0;
-    std::size_t covered = 0;
-    for (const ViewError& error : errors) {
-        all += error.all, inside += error.inside;
-        worst = std::max(worst, error.all.mean());
-        ssim_sum += error.ssim;
-        covered += error.covered;
-    }
-    const double pixels = double(all.values) / 3;
+                      [&](std::size_t k) { errors[k] = compare(mesh, texture, views[k], samples); });
+    ViewError sum;
+    for (const ViewError& error : errors) sum += error;
     PictureError result;
+    result.antialiased = sum.antialiased.over(views.size());
+    result.one_sample = sum.one_sample.over(views.size());
+    result.psnr_covered = psnr(sum.covered ? sum.all.sum / (3.0 * double(sum.covered)) : 0);
+    result.psnr_inside = psnr(sum.inside.mean());
+    result.background_share = 1 - double(sum.covered) / (double(sum.all.values) / 3);
+    result.width = views.empty() ? 0 : views[0].camera.width / samples;
     result.views = views.size();
-    result.psnr = psnr(all.mean());
-    result.psnr_covered = psnr(covered ? all.sum / (3.0 * double(covered)) : 0);
-    result.psnr_inside = psnr(inside.mean());
-    result.psnr_worst = psnr(worst);
-    result.ssim = ssim_sum / double(views.size());
-    result.background_share = 1 - double(covered) / pixels;
     return result;
 }
 

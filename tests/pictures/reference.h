@@ -32,15 +32,23 @@ Picture lit(const ReferenceView& view);
 Picture lit(const SeenImage& level, const ReferenceView& where);
 
 /// Over all pixels of all views at once.
+struct Likeness {
+    double psnr = 0;       ///< all pixels, background too
+    double psnr_worst = 0; ///< of the worst single view
+    double ssim = 0;       ///< mean of the views
+};
 struct PictureError {
-    double psnr = 0;             ///< all pixels, background too
-    double psnr_covered = 0;     ///< only pixels that the original or the level covers
-    double psnr_inside = 0;  ///< only pixels that both cover: colour and light, whatever the outlines do
-    double psnr_worst = 0;       ///< of the worst single view, all pixels
-    double ssim = 0;             ///< mean of the views
-    double background_share = 0; ///< pixels that neither covers
+    Likeness antialiased;        ///< a pixel is the mean of all its samples, after light
+    Likeness one_sample;         ///< a pixel is one of its samples
+    double psnr_covered = 0;     ///< samples that the original or the level covers
+    double psnr_inside = 0;      ///< samples that both cover: colour and light, whatever the outlines do
+    double background_share = 0; ///< samples that neither covers
+    int width = 0;               ///< pixels of a picture
     std::size_t views = 0;
 };
-PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views);
+/// Original and level are drawn with the same `samples` x `samples` samples a pixel, one in each pixel of the
+/// reference view, whose width they divide.
+PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views,
+                           int samples = 1);
 
 } // namespace glcast::pictures

@@ -46,15 +46,15 @@ TEST(PictureError, WhatWasDrawnLooksLikeItself) {
         ASSERT_EQ(views.size(), 36u);
         const Mesh mesh = fixtures::truth(shape);
         const PictureError same = picture_error(mesh, {}, views);
-        EXPECT_GT(same.psnr, 44) << "only pixels on silhouettes may differ";
-        EXPECT_GT(same.ssim, 0.998);
-        EXPECT_LT(same.psnr_covered, same.psnr);
-        EXPECT_LE(same.psnr_worst, same.psnr);
+        EXPECT_GT(same.one_sample.psnr, 44) << "only pixels on silhouettes may differ";
+        EXPECT_GT(same.one_sample.ssim, 0.998);
+        EXPECT_LT(same.psnr_covered, same.one_sample.psnr);
+        EXPECT_LE(same.one_sample.psnr_worst, same.one_sample.psnr);
         EXPECT_GT(same.psnr_inside, 44);
         EXPECT_GT(same.background_share, 0.2);
         const double sample = views[0].camera.pixel;
         const PictureError shifted = picture_error(moved(mesh, glm::dvec3(sample)), {}, views);
-        EXPECT_LT(shifted.psnr, same.psnr - 10) << "a sample aside along each axis";
+        EXPECT_LT(shifted.one_sample.psnr, same.one_sample.psnr - 10) << "a sample aside along each axis";
     }
 }
 
@@ -64,9 +64,9 @@ TEST(PictureError, ColoursAndNormalsCount) {
     const PictureError same = picture_error(mesh, {}, views);
     Mesh dark = mesh;
     for (glm::vec3& colour : dark.colours) colour *= 0.8f;
-    EXPECT_LT(picture_error(dark, {}, views).psnr, same.psnr - 6);
+    EXPECT_LT(picture_error(dark, {}, views).one_sample.psnr, same.one_sample.psnr - 6);
     for (glm::vec3& normal : mesh.normals) normal = -normal;
-    EXPECT_LT(picture_error(mesh, {}, views).psnr, same.psnr - 6);
+    EXPECT_LT(picture_error(mesh, {}, views).one_sample.psnr, same.one_sample.psnr - 6);
 }
 
 /// Every pixel of the error in closed form: a picture that is all background against one square of n x n.
@@ -81,11 +81,32 @@ TEST(PictureError, AMissingSquareInClosedForm) {
     aside.triangles = {{0, 1, 2}};
     const PictureError error = picture_error(aside, {}, {&view, 1});
     const double value = 242.0 / 255, share = double(side * side) / (n * n);
-    EXPECT_NEAR(error.psnr, -10 * std::log10(value * value * share), 1e-9);
+    EXPECT_NEAR(error.one_sample.psnr, -10 * std::log10(value * value * share), 1e-9);
     EXPECT_NEAR(error.psnr_covered, -10 * std::log10(value * value), 1e-9);
     EXPECT_NEAR(error.background_share, 1 - share, 1e-12);
     EXPECT_TRUE(std::isinf(error.psnr_inside)) << "no pixel is covered by both";
-    EXPECT_LT(error.ssim, 1);
+    EXPECT_LT(error.one_sample.ssim, 1);
+}
+
+/// A square that is a sample aside: whole pixels of one sample flip, or none; with four samples a pixel,
+/// pixels on two of its edges are half off.
+TEST(PictureError, ASquareAsideInClosedForm) {
+    ViewImage image = blank_image({Axis::z, Side::plus, 0}, n);
+    const int side = 30;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) image.colour[std::size_t(40 + j) * n + 20 + i] = glm::vec4(0, 0, 0, 1);
+    const ReferenceView view = reference_view(image, {glm::dvec3(-1), 2}, glm::dmat4(1.0), "");
+    Mesh square; // a sample to the right of it
+    const auto corner = [](int i, int j) { return glm::dvec3(-1 + 2.0 * i / n, -1 + 2.0 * j / n, 0); };
+    square.positions = {corner(21, 40), corner(51, 40), corner(51, 70), corner(21, 70)};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}};
+    square.colours.assign(4, glm::vec3(0));
+    const PictureError error = picture_error(square, {}, {&view, 1}, 2);
+    const double half = 121.0 / 255, pixels = n * n / 4.0;
+    EXPECT_EQ(error.width, n / 2);
+    EXPECT_NEAR(error.antialiased.psnr, -10 * std::log10(half * half * side / pixels), 1e-9);
+    EXPECT_TRUE(std::isinf(error.one_sample.psnr)) << "samples of odd columns: 21 to 49 of both";
+    EXPECT_THROW(picture_error(square, {}, {&view, 1}, 7), std::invalid_argument);
 }
 
 /// Two ways to draw the same mesh, one of them Mesa's.
@@ -102,12 +123,13 @@ TEST(Raster, SeesWhatOsmesaDraws) {
     EXPECT_LT(double(off) / double(own.rgb.size()), 0.01); // light per pixel here, per vertex there
 }
 
-/// What was captured stands over what was drawn: same place, same scale, same light, and no tile turned or mirrored.
+/// What was captured stands over what was drawn: same place, same scale, same light, and no tile turned or
+/// mirrored.
 TEST(Sheet, CapturedViewsLieOverTheLevels) {
     test::OsmesaContext context;
     fixtures::Scene scene(context.gl(), "teapot", fixtures::Way::immediate);
-    const test::Cast cast =
-        test::capture(context.gl(), [&](const GlTable& gl) { scene.draw_shape(gl); }, test::small_options(128));
+    const test::Cast cast = test::capture(
+        context.gl(), [&](const GlTable& gl) { scene.draw_shape(gl); }, test::small_options(128));
     ASSERT_TRUE(cast.report.ok);
     const Level level{fixtures::truth("teapot"), "level 0", {}, 0, {}};
     const CapturedViews captured{"captured", cast.images, cast.report.box};
@@ -118,7 +140,9 @@ TEST(Sheet, CapturedViewsLieOverTheLevels) {
         double difference = 0, contrast = 0;
         for (int y = 25; y < 25 + size; ++y)
             for (int x = 1; x < size; ++x) {
-                const auto at = [&](int px, int py) { return int(sheet.rgb[(std::size_t(py) * sheet.width + px) * 3]); };
+                const auto at = [&](int px, int py) {
+                    return int(sheet.rgb[(std::size_t(py) * sheet.width + px) * 3]);
+                };
                 const int here = column * pitch + x;
                 difference += std::abs(at(here, y) - at(here, y + row));
                 contrast += std::abs(at(here, y) - 242);

@@ -11,6 +11,7 @@
 
 #include "capture/output_file.h"
 #include "tests/pictures/originals.h"
+#include "tests/pictures/quality.h"
 #include "tests/pictures/reference.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/capture_reader.h"
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     std::string name, capture, levels, textured, original, json, pictures;
     std::vector<std::size_t> targets{10'000, 2'000, 500};
-    bool simplify_original = true;
+    int samples = 4; ///< a pixel, along an axis
 };
 
 struct Context {
@@ -43,7 +44,7 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
     DeviationOptions points;
     points.visible_only = context.known; // what a cast cannot see it need not have
     const Deviation d = deviation(context.truth, mesh, points);
-    const PictureError error = picture_error(mesh, texture, context.views);
+    const PictureError error = picture_error(mesh, texture, context.views, context.options.samples);
     Json row = {{"program", context.options.name},
                 {"n", context.n},
                 {"how", how},
@@ -57,18 +58,23 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
                 {"maxError", std::max(d.a_to_b.max, d.b_to_a.max)},
                 {"diagonal", d.diagonal_a},
                 {"views", error.views},
-                {"psnr", error.psnr},
+                {"width", error.width},
+                {"samples", context.options.samples},
+                {"psnr", error.antialiased.psnr},
+                {"psnrWorstView", error.antialiased.psnr_worst},
+                {"ssim", error.antialiased.ssim},
+                {"psnrOneSample", error.one_sample.psnr},
+                {"ssimOneSample", error.one_sample.ssim},
                 {"psnrCovered", error.psnr_covered},
                 {"psnrInside", error.psnr_inside},
-                {"psnrWorstView", error.psnr_worst},
-                {"ssim", error.ssim},
                 {"backgroundShare", error.background_share}};
-    std::fprintf(stderr,
-                 "%-12s %-14s %7zu triangles: mean %.4f samples, %.2f dB (inside %.2f, covered %.2f, worst view "
-                 "%.2f), SSIM %.4f\n",
-                 context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
-                 row["meanError"].get<double>() / context.sample, error.psnr, error.psnr_inside,
-                 error.psnr_covered, error.psnr_worst, error.ssim);
+    std::fprintf(
+        stderr,
+        "%-12s %-14s %7zu triangles: mean %.4f samples, %.2f dB (one sample %.2f, inside %.2f, worst view "
+        "%.2f), SSIM %.4f\n",
+        context.options.name.c_str(), how.c_str(), mesh.triangles.size(),
+        row["meanError"].get<double>() / context.sample, error.antialiased.psnr, error.one_sample.psnr,
+        error.psnr_inside, error.antialiased.psnr_worst, error.antialiased.ssim);
     context.rows.push_back(row);
     return row;
 }
@@ -94,7 +100,7 @@ void write_picture(const Context& context, const std::string& what, const Mesh& 
     if (context.options.pictures.empty()) return;
     const ReferenceView& view = fullest(context.views);
     write_png(context.options.pictures + "/" + context.options.name + "-" + what + ".png",
-              lit(rasterise(mesh, texture, view.camera), view));
+              antialiased(lit(rasterise(mesh, texture, view.camera), view), context.options.samples));
 }
 
 void add_levels(Context& context, const std::string& file, const std::string& how) {
@@ -147,7 +153,8 @@ void run(const Options& options) {
         context.truth = read_levels(options.levels)[0].mesh;
     }
     if (!options.pictures.empty())
-        write_png(options.pictures + "/" + options.name + "-original.png", lit(fullest(context.views)));
+        write_png(options.pictures + "/" + options.name + "-original.png",
+                  antialiased(lit(fullest(context.views)), options.samples));
     add_levels(context, options.levels, "vertex colours");
     if (!options.textured.empty()) add_levels(context, options.textured, "textured");
     if (context.known) add_simplified(context);
@@ -167,6 +174,7 @@ int main(int count, char** arguments) {
     app.add_option("--original", options.original, "teapot, spheres or t.obj");
     app.add_option("--json", options.json, "rows to write")->required();
     app.add_option("--pictures", options.pictures, "folder for pictures of the levels");
+    app.add_option("--samples", options.samples, "samples a pixel, along an axis")->check(CLI::Range(1, 16));
     app.add_option("--targets", options.targets)->delimiter(',');
     CLI11_PARSE(app, count, arguments);
     try {

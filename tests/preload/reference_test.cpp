@@ -51,15 +51,33 @@ TEST(ReferenceViews, stand_beside_the_capture_and_the_program_sees_nothing) {
     }
 }
 
+TEST(ReferenceViews, may_be_finer_than_the_capture) {
+    const TemporaryFolder folder;
+    cast_fixture(spheres, {{"GLCAST_OUT", folder / "a.exr"},
+                           {"GLCAST_N", "32"},
+                           {"GLCAST_REFERENCE_VIEWS", "12"},
+                           {"GLCAST_REFERENCE_N", "64"}});
+    const CaptureInfo info = read_capture_info(folder / "a.exr");
+    EXPECT_EQ(info.n, 32);
+    for (int number = 1; number <= 2; ++number) {
+        const Capture turned = read_capture(reference_name(folder / "a.exr", number));
+        EXPECT_EQ(turned.info.n, 64);
+        ASSERT_EQ(turned.images.size(), 6u);
+        EXPECT_EQ(turned.images[0].n, 64);
+        EXPECT_EQ(turned.info.eye_to_capture, *turned.info.from_capture * info.eye_to_capture);
+    }
+}
+
 TEST(ReferenceViews, other_values_are_refused) {
     for (const Environment& environment :
-         {Environment{{"GLCAST_REFERENCE_VIEWS", "0"}}, Environment{{"GLCAST_REFERENCE_VIEWS", "37"}},
+         {Environment{{"GLCAST_REFERENCE_VIEWS", "6"}, {"GLCAST_REFERENCE_N", "7"}},
+          Environment{{"GLCAST_REFERENCE_VIEWS", "0"}}, Environment{{"GLCAST_REFERENCE_VIEWS", "37"}},
           Environment{{"GLCAST_REFERENCE_VIEWS", "many"}},
           Environment{{"GLCAST_REFERENCE_VIEWS", "6"}, {"GLCAST_BOX", "0,0,0,1,1,1"}}}) {
         const FixtureRun cast = cast_fixture(spheres, environment);
         EXPECT_FALSE(cast.capture);
         ASSERT_FALSE(glcast_lines(cast.outcome).empty());
-        EXPECT_NE(cast.outcome.err.find("GLCAST_REFERENCE_VIEWS="), std::string::npos) << cast.outcome.err;
+        EXPECT_NE(cast.outcome.err.find("GLCAST_REFERENCE_"), std::string::npos) << cast.outcome.err;
     }
 }
 
