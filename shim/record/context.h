@@ -64,6 +64,8 @@ struct Frame {
     std::vector<Blob> blobs;                ///< by number, from draw packets
     std::vector<TextureCopy> textures;      ///< by number, from end_texture packets
     mutable std::vector<GLuint> stand_ins;  ///< texture objects that hold these, made by the first replay
+    std::set<GLenum> filled_defaults; ///< targets whose texture named 0 gets an image in the frame
+    mutable std::map<GLenum, GLuint> default_textures; ///< target -> what replays bind for its texture named 0
     std::map<std::string, long> not_understood;
 };
 

@@ -1,8 +1,8 @@
 // Images: textures, bitmaps, pixels. Pixels are unpacked from the program's layout when the call is made.
 //
-// Textures with a name are shared, so the program's upload is there at replay. Contexts do not share the
-// texture objects named 0: uploads and parameters are played for these alone, whatever was bound when they
-// were recorded.
+// Textures with a name are shared, so the program's upload is there at replay. The texture objects named 0
+// have stand-ins there (default_textures.h): uploads and parameters are played for these alone, whatever was
+// bound when they were recorded.
 #include <algorithm>
 #include <vector>
 
@@ -139,11 +139,7 @@ Context* context_of_upload(GLenum target) {
     Context* context = listening_context();
     if (!context || !context->can_query()) return nullptr;
     copy_before_change(*context, target);
-    return context->compilation || binds_default_texture(context->real, target) ? context : nullptr;
-}
-
-void play_for_default_texture(Player& player, const Packet& packet, PlayFunction play) {
-    if (binds_default_texture(player.gl, Reader(packet).get<GLenum>())) play(player, packet);
+    return note_default_filled(*context, target) || context->compilation ? context : nullptr;
 }
 
 } // namespace
@@ -293,28 +289,5 @@ void APIENTRY CompressedTexSubImage3D(GLenum target, GLint level, GLint x, GLint
     record_compressed<packets::CompressedTexSubImage3D>(target, bytes, data, level, x, y, z, w, h, d, format);
     this_thread.real->CompressedTexSubImage3D(target, level, x, y, z, w, h, d, format, bytes, data);
 }
-
-#define PLAY_FOR_DEFAULT_TEXTURE(call)                                                                       \
-    void play_##call(Player& player, const Packet& packet) {                                                 \
-        play_for_default_texture(player, packet, packets::call::play);                                       \
-    }
-PLAY_FOR_DEFAULT_TEXTURE(TexImage1D)
-PLAY_FOR_DEFAULT_TEXTURE(TexImage2D)
-PLAY_FOR_DEFAULT_TEXTURE(TexImage3D)
-PLAY_FOR_DEFAULT_TEXTURE(TexSubImage1D)
-PLAY_FOR_DEFAULT_TEXTURE(TexSubImage2D)
-PLAY_FOR_DEFAULT_TEXTURE(TexSubImage3D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexImage1D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexImage2D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexImage3D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexSubImage1D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexSubImage2D)
-PLAY_FOR_DEFAULT_TEXTURE(CompressedTexSubImage3D)
-PLAY_FOR_DEFAULT_TEXTURE(TexParameterf)
-PLAY_FOR_DEFAULT_TEXTURE(TexParameteri)
-PLAY_FOR_DEFAULT_TEXTURE(TexParameterfv)
-PLAY_FOR_DEFAULT_TEXTURE(TexParameteriv)
-PLAY_FOR_DEFAULT_TEXTURE(GenerateMipmap)
-#undef PLAY_FOR_DEFAULT_TEXTURE
 
 } // namespace glcast::record::custom

@@ -9,6 +9,7 @@ namespace glcast::record {
 void Player::run(const std::function<void()>& before_calls) {
     reset_client_state();
     make_stand_ins(*this);
+    defaults.begin(*this);
     empty_stacks();
     play(frame.prologue); // leaves an identity modelview: it sets lights and planes in eye space
     load_stacks();

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "shim/record/context.h"
+#include "shim/record/default_textures.h"
 #include "shim/record/texture_stand_ins.h"
 
 namespace glcast::record {
-
-class Player;
-using PlayFunction = void (*)(Player&, const Packet&);
 
 /// How to play each packet, indexed by Op: the entry points (null where none is recorded), then the extra
 /// ones.
@@ -27,7 +25,8 @@ enum class ExtraOp : Op {
 
 class Player {
   public:
-    Player(const Frame& recorded, const GlTable& table) : gl(table), frame(recorded), textures(recorded, table) {}
+    Player(const Frame& recorded, const GlTable& table)
+        : gl(table), frame(recorded), defaults(recorded, table), textures(recorded, table, defaults) {}
     void run(const std::function<void()>& before_calls);
     void play(const Stream& stream);
     void call_list(GLuint name);
@@ -50,6 +49,7 @@ class Player {
     } state;
     const GlTable& gl;
     const Frame& frame;
+    DefaultTextures defaults;
     TextureStandIns textures;
 
   private:

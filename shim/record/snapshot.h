@@ -25,10 +25,6 @@ void write_texture(Context& context, Stream& stream, GLenum target);
 /// functions have not. `object`: the target that the texture itself has.
 GLenum texture_binding(GLenum target, GLenum* object = nullptr);
 
-/// Whether the texture object named 0 is bound to a target. False for proxies and targets that fixed
-/// functions have not.
-bool binds_default_texture(const GlTable& gl, GLenum target);
-
 /// The tops of all matrix stacks, with depths and current modes.
 void read_matrices(Context& context, Recording& recording);
 

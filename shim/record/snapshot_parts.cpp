@@ -186,11 +186,6 @@ GLenum texture_binding(GLenum target, GLenum* object) {
     return 0;
 }
 
-bool binds_default_texture(const GlTable& gl, GLenum target) {
-    const GLenum binding = texture_binding(target);
-    return binding && get_int(gl, binding, -1) == 0;
-}
-
 void write_texture(Context& context, Stream& stream, GLenum target) {
     // Levels first: with GL_GENERATE_MIPMAP set, giving level 0 would make the others anew.
     packets::TexParameteri::write(stream, target, GL_GENERATE_MIPMAP, GL_FALSE);

@@ -175,6 +175,7 @@ void play_PopAttrib(Player& player, const Packet& packet) {
     player.pop_attrib();
     packets::PopAttrib::play(player, packet);
     player.textures.refresh(); // it may have brought back one that has changed since
+    player.defaults.attributes_were_popped();
 }
 
 GLint APIENTRY RenderMode(GLenum mode) {

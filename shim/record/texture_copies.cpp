@@ -11,7 +11,7 @@ namespace {
 void note_copy(GLenum target, GLint level) {
     Context* context = listening_context();
     if (!context || !context->recording || !context->can_query()) return;
-    if (!binds_default_texture(context->real, target)) return;
+    if (!note_default_filled(*context, target)) return;
     if (context->compilation) return context->count("a copy into the texture named 0 by a display list");
     context->emit(false, [&](Stream& stream) { write_level(*context, stream, target, level); });
 }

@@ -7,8 +7,8 @@
 
 namespace glcast::record {
 
-TextureStandIns::TextureStandIns(const Frame& of, const GlTable& table)
-    : frame(of), gl(table), ended(of.textures.size()), deleted(of.textures.size()) {
+TextureStandIns::TextureStandIns(const Frame& of, const GlTable& table, const DefaultTextures& for_0)
+    : frame(of), gl(table), defaults(for_0), ended(of.textures.size()), deleted(of.textures.size()) {
     for (auto number = std::uint32_t(frame.textures.size()); number-- > 0;)
         copies[frame.textures[number].name].push_back(number);
 }
@@ -20,7 +20,7 @@ GLuint TextureStandIns::find(GLenum target, GLuint name) const {
             return frame.stand_ins[number];
     }
     // Binding a name that the program has deleted would make it anew, in the program's own name space.
-    return name && gl.IsTexture(name) ? name : 0;
+    return name && gl.IsTexture(name) ? name : defaults.find(target);
 }
 
 void TextureStandIns::end(std::uint32_t number, bool by_deletion) {
@@ -41,7 +41,7 @@ void TextureStandIns::refresh() const {
             if (!ended[number]) continue;
             const TextureCopy& copy = frame.textures[number];
             if (GLuint(get_int(gl, texture_binding(copy.target))) == frame.stand_ins[number])
-                gl.BindTexture(copy.target, deleted[number] ? 0 : find(copy.target, copy.name));
+                gl.BindTexture(copy.target, find(copy.target, deleted[number] ? 0 : copy.name));
         }
     }
     if (active_unit) gl.ActiveTexture(active_unit);
@@ -95,12 +95,14 @@ void make_stand_ins(Player& player) {
     frame.stand_ins = std::move(names);
 }
 
-bool has_copies(const Frame& frame) { return !frame.stand_ins.empty(); }
+bool has_copies(const Frame& frame) { return !frame.stand_ins.empty() || !frame.default_textures.empty(); }
 
 void delete_copies(const Frame& frame, const GlTable& gl) {
     if (!has_copies(frame)) return;
     gl.DeleteTextures(GLsizei(frame.stand_ins.size()), frame.stand_ins.data());
     frame.stand_ins.clear();
+    for (const auto& [target, name] : frame.default_textures) gl.DeleteTextures(1, &name);
+    frame.default_textures.clear();
 }
 
 } // namespace glcast::record

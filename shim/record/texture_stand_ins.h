@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "shim/record/context.h"
+#include "shim/record/default_textures.h"
 
 namespace glcast::record {
-
-class Player;
 
 /// Which copy of each texture the calls that are played now see.
 class TextureStandIns {
   public:
-    TextureStandIns(const Frame& frame, const GlTable& gl);
+    TextureStandIns(const Frame& frame, const GlTable& gl, const DefaultTextures& defaults);
 
-    /// What to bind for the program's `name`: a copy, the texture itself, or 0 where it has been deleted.
+    /// What to bind for the program's `name`: a copy, the texture itself, or that for the name 0 where it has
+    /// been deleted.
     GLuint find(GLenum target, GLuint name) const;
     /// The program changes the texture that copy `number` is of.
     void end(std::uint32_t number, bool deleted);
@@ -25,6 +25,7 @@ class TextureStandIns {
   private:
     const Frame& frame;
     const GlTable& gl;
+    const DefaultTextures& defaults;
     std::vector<bool> ended, deleted;
     std::unordered_map<GLuint, std::vector<std::uint32_t>>
         copies; ///< of each name, those that have not ended, last first

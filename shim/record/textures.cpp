@@ -169,6 +169,15 @@ void copy_before_change(Context& context, GLenum target) {
         guarded(context, [&](Recording&) { end_texture(context, GLuint(name), object, false); });
 }
 
+bool note_default_filled(Context& context, GLenum target) {
+    GLenum object = 0;
+    const GLenum binding = texture_binding(target, &object);
+    if (!binding || get_int(context.real, binding, -1) != 0) return false;
+    if (context.recording)
+        guarded(context, [&](Recording& recording) { recording.frame->filled_defaults.insert(object); });
+    return true;
+}
+
 } // namespace glcast::record
 
 namespace glcast::record::custom {

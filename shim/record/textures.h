@@ -15,4 +15,7 @@ void note_bound_textures(Recording& recording);
 /// Before a call that changes what is bound to `target` (or a face of a cube). Needs `can_query`.
 void copy_before_change(Context& context, GLenum target);
 
+/// Before an image goes into what is bound to `target`: whether that is the texture named 0. Needs `can_query`.
+bool note_default_filled(Context& context, GLenum target);
+
 } // namespace glcast::record
