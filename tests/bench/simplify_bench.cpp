@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "tests/bench/peers.h"
-#include "tests/bench/simplify_peers.h"
 #include "tests/paper/originals.h"
+#include "tests/peers/simplify_peers.h"
 #include "tests/reconstruct/bodies.h"
 #include "tests/reconstruct/mesh_layers.h"
 #include "tools/deviation/deviation.h"

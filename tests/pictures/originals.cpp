@@ -57,9 +57,9 @@ Mesh original(const std::string& name) {
     throw std::invalid_argument("no original " + name + ": teapot, spheres or t.obj");
 }
 
-Mesh simplified_original(const Mesh& original, const Simplifier& simplifier, std::size_t triangles) {
+Mesh simplified_original(const Mesh& original, const test::SimplifyPeer& peer, std::size_t triangles) {
     if (original.triangles.size() <= triangles) return original;
-    Mesh mesh = simplifier.simplify(paper::welded(original), triangles);
+    Mesh mesh = peer.run(paper::welded(original), triangles).mesh;
     take_attributes(mesh, original);
     return mesh;
 }

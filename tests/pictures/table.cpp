@@ -123,12 +123,14 @@ void add_levels(Context& context, const std::string& file, const std::string& ho
 
 void add_simplified(Context& context) {
     measured(context, "original", 0, context.truth, {});
-    for (const Simplifier& simplifier : simplifiers())
+    for (const test::SimplifyPeer& peer : test::simplify_peers()) {
+        if (!peer.is_default) continue;
         for (const std::size_t target : context.options.targets) {
-            const Mesh mesh = simplified_original(context.truth, simplifier, target);
-            measured(context, simplifier.name, target, mesh, {});
-            write_picture(context, simplifier.name + std::string("-") + std::to_string(target), mesh, {});
+            const Mesh mesh = simplified_original(context.truth, peer, target);
+            measured(context, peer.library, target, mesh, {});
+            write_picture(context, peer.library + std::string("-") + std::to_string(target), mesh, {});
         }
+    }
 }
 
 /// The mean of what was captured: for meshes whose colour the program chose.

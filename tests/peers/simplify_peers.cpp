@@ -1,9 +1,10 @@
-#include "tests/bench/simplify_peers.h"
+#include "tests/peers/simplify_peers.h"
 
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -14,13 +15,13 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include <algorithm>
-#include <stdexcept>
-
-#include "tests/bench/peers.h"
+#include <array>
+#include <ctime>
 
 namespace glcast::test {
 namespace {
+
+double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Drops vertices that no triangle has.
 Mesh used_part(const Mesh& mesh) {
@@ -78,13 +79,16 @@ SimplifyPeerResult by_openmesh(const Mesh& mesh, std::size_t triangles) {
 
 using CgalSurface = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 
+/// Where more than two triangles meet at an edge, vertices are doubled.
 CgalSurface to_cgal(const Mesh& mesh) {
+    namespace processing = CGAL::Polygon_mesh_processing;
+    std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
+    std::vector<std::array<std::size_t, 3>> soup;
+    for (const glm::dvec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
+    for (const Triangle& t : mesh.triangles) soup.push_back({t[0], t[1], t[2]});
+    processing::orient_polygon_soup(points, soup);
     CgalSurface surface;
-    for (const glm::dvec3& p : mesh.positions) surface.add_vertex({p.x, p.y, p.z});
-    using Vertex = CgalSurface::Vertex_index;
-    for (const Triangle& t : mesh.triangles)
-        if (surface.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == CgalSurface::null_face())
-            throw std::logic_error("CGAL takes manifold meshes only");
+    processing::polygon_soup_to_polygon_mesh(points, soup, surface);
     return surface;
 }
 
@@ -107,13 +111,21 @@ Mesh from_cgal(CgalSurface& surface) {
 
 namespace sms = CGAL::Surface_mesh_simplification;
 
+struct FaceCount {
+    std::size_t triangles;
+    template <class Cost, class Profile>
+    bool operator()(const Cost&, const Profile& profile, std::size_t, std::size_t) const {
+        return profile.surface_mesh().number_of_faces() <= triangles;
+    }
+};
+
 SimplifyPeerResult by_cgal_garland_heckbert(const Mesh& mesh, std::size_t triangles) {
     CgalSurface surface = to_cgal(mesh);
     using Policies = sms::GarlandHeckbert_plane_policies<CgalSurface, CGAL::Simple_cartesian<double>>;
     const double start = cpu_seconds();
     const Policies policies(surface);
     const sms::Bounded_normal_change_placement<Policies::Get_placement> placement(policies.get_placement());
-    sms::edge_collapse(surface, sms::Count_stop_predicate<CgalSurface>(triangles * 3 / 2 + 1),
+    sms::edge_collapse(surface, FaceCount{triangles},
                        CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement));
     const double seconds = cpu_seconds() - start;
     return {from_cgal(surface), seconds};
@@ -122,7 +134,7 @@ SimplifyPeerResult by_cgal_garland_heckbert(const Mesh& mesh, std::size_t triang
 SimplifyPeerResult by_cgal_lindstrom_turk(const Mesh& mesh, std::size_t triangles) {
     CgalSurface surface = to_cgal(mesh);
     const double start = cpu_seconds();
-    sms::edge_collapse(surface, sms::Count_stop_predicate<CgalSurface>(triangles * 3 / 2 + 1),
+    sms::edge_collapse(surface, FaceCount{triangles},
                        CGAL::parameters::get_cost(sms::LindstromTurk_cost<CgalSurface>())
                            .get_placement(sms::LindstromTurk_placement<CgalSurface>()));
     const double seconds = cpu_seconds() - start;
@@ -151,10 +163,10 @@ SimplifyPeerResult by_meshoptimizer(const Mesh& mesh, std::size_t triangles) {
 
 const std::vector<SimplifyPeer>& simplify_peers() {
     static const std::vector<SimplifyPeer> all = {
-        {"OpenMesh DecimaterT, ModQuadricT", by_openmesh},
-        {"CGAL, Garland and Heckbert", by_cgal_garland_heckbert},
-        {"CGAL, Lindstrom and Turk", by_cgal_lindstrom_turk},
-        {"meshoptimizer", by_meshoptimizer},
+        {"OpenMesh DecimaterT, ModQuadricT", by_openmesh, "OpenMesh", true},
+        {"CGAL, Garland and Heckbert", by_cgal_garland_heckbert, "CGAL"},
+        {"CGAL, Lindstrom and Turk", by_cgal_lindstrom_turk, "CGAL", true},
+        {"meshoptimizer", by_meshoptimizer, "meshoptimizer", true},
     };
     return all;
 }
