@@ -1,52 +1,11 @@
 // Depth layers: every hit of every ray, found once.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture/engine_peel.h"
-#include "tests/capture/layer_truth.h"
-#include "tests/support/osmesa_context.h"
+#include "tests/capture/layers_of.h"
 
 namespace glcast::test {
 namespace {
-
-const Box view_box{glm::dvec3(-1.013, -1.007, -1.021), 2.04};
-const Box wide_box{glm::dvec3(-1.213, -1.207, -1.221), 2.44};
-const glm::vec3 red(0.8f, 0.1f, 0.2f), green(0.1f, 0.7f, 0.3f), blue(0.15f, 0.25f, 0.9f);
-
-class LayersOf : public testing::Test {
-  protected:
-    OsmesaContext context;
-    const GlTable& gl = context.gl();
-    EngineOptions options = small_options(64);
-
-    void SetUp() override {
-        options.box = view_box;
-        options.most_layers = 32;
-    }
-    Cast cast_of(const DrawFunction& draw) { return capture(gl, draw, options); }
-    Cast complete_cast_of(const DrawFunction& draw) {
-        Cast cast = cast_of(draw);
-        EXPECT_TRUE(cast.report.ok) << cast.report.error;
-        EXPECT_EQ(cast.report.layers, Layers::complete);
-        EXPECT_EQ(cast.report.layer_method, options.layer_method);
-        return cast;
-    }
-};
-
-void nested_spheres(const GlTable& gl) {
-    set_lit(gl);
-    set_diffuse(gl, red);
-    draw_sphere(gl, glm::dvec3(0.01), 0.9, 64);
-    set_diffuse(gl, green);
-    draw_sphere(gl, glm::dvec3(0.1, 0.05, -0.1), 0.6, 64);
-    set_diffuse(gl, blue);
-    draw_sphere(gl, glm::dvec3(0.2, 0.02, -0.1), 0.3, 64);
-}
-const std::vector<BodyPtr> nested_bodies{sphere(glm::dvec3(0.01), 0.9, red),
-                                         sphere({0.1, 0.05, -0.1}, 0.6, green),
-                                         sphere({0.2, 0.02, -0.1}, 0.3, blue)};
 
 TEST_F(LayersOf, SpheresOneInTheOther) {
     const Cast cast = complete_cast_of(nested_spheres);
@@ -206,30 +165,6 @@ TEST_F(LayersOf, ACylinderBehindACylinder) {
     EXPECT_LT(e.colour_max, 1.0 / 255);
 }
 
-void quad(const GlTable& gl, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
-    const glm::dvec3 n = glm::cross(b - a, d - a);
-    gl.Normal3d(n.x, n.y, n.z);
-    for (const glm::dvec3& p : {a, b, c, d}) gl.Vertex3d(p.x, p.y, p.z);
-}
-
-/// An open box with walls of 0.1 and half edge 0.6, its opening at +z.
-void draw_cup(const GlTable& gl) {
-    constexpr double o = 0.6, i = 0.5;
-    gl.Begin(GL_QUADS);
-    for (int side = 0; side < 4; ++side) {
-        const auto at = [side](double r, double across, double z) {
-            const glm::dvec2 p[] = {{r, across}, {-across, r}, {-r, -across}, {across, -r}};
-            return glm::dvec3(p[side], z);
-        };
-        quad(gl, at(o, -o, -o), at(o, o, -o), at(o, o, o), at(o, -o, o));
-        quad(gl, at(i, i, -i), at(i, -i, -i), at(i, -i, o), at(i, i, o));
-        quad(gl, at(o, -o, o), at(o, o, o), at(i, i, o), at(i, -i, o));
-    }
-    quad(gl, {-o, o, -o}, {o, o, -o}, {o, -o, -o}, {-o, -o, -o});
-    quad(gl, {-i, -i, -i}, {i, -i, -i}, {i, i, -i}, {-i, i, -i});
-    gl.End();
-}
-
 TEST_F(LayersOf, ACupTiltedBy40Degrees) {
     const glm::dmat3 turn = turned({1, 1, 0.2}, 40);
     const Cast cast = complete_cast_of([](const GlTable& gl) {
@@ -245,19 +180,6 @@ TEST_F(LayersOf, ACupTiltedBy40Degrees) {
     EXPECT_LT(e.depth_max, 1e-3);
     EXPECT_LT(e.normal_max, 0.1);
     EXPECT_LT(e.colour_max, 1.0 / 255);
-}
-
-/// A square through the origin, `parts` x `parts` quads, its normal turned from z by `degrees` about x.
-void draw_sheet(const GlTable& gl, double degrees, int parts) {
-    const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
-    const auto at = [&](int i, int j) {
-        const double u = 1.4 * i / parts - 0.7, v = 1.4 * j / parts - 0.7;
-        return glm::dvec3(u, v * c, v * s);
-    };
-    gl.Begin(GL_QUADS);
-    for (int i = 0; i < parts; ++i)
-        for (int j = 0; j < parts; ++j) quad(gl, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    gl.End();
 }
 
 /// Two sheets in one place, tessellated differently so that their depths are rounded differently, inside a
@@ -424,154 +346,6 @@ TEST_F(Leaves, MostlyHolesHaveNormalsToo) {
 TEST_F(Leaves, HolesOfTexturesAreNoHitsInSlabsEither) {
     options.layer_method = LayerMethod::slab;
     expect_leaves();
-}
-
-/// A cup and a cylinder in a sphere.
-void many_bodies(const GlTable& gl) {
-    set_lit(gl);
-    set_diffuse(gl, red);
-    draw_sphere(gl, glm::dvec3(0.01), 0.95);
-    gl.PushMatrix();
-    gl.Rotated(40, 1, 1, 0.2);
-    set_diffuse(gl, green);
-    gl.Scaled(0.8, 0.8, 0.8);
-    draw_cup(gl);
-    gl.PopMatrix();
-    set_diffuse(gl, blue);
-    draw_cylinder(gl, {0.5, -0.4, -0.3}, 0.1, 0.5);
-}
-
-TEST_F(LayersOf, SlabsFindWhatPeelingFinds) {
-    options.box = wide_box;
-    const Cast peeled = complete_cast_of(many_bodies);
-    options.layer_method = LayerMethod::slab;
-    const Cast slabs = complete_cast_of(many_bodies);
-    const LayerDifference d = layer_difference(peeled, slabs);
-    EXPECT_GE(peeled.report.layer_count[0], 6);
-    EXPECT_LE(d.wrong_count, d.rays / 1000); // hits as far apart as the tolerance
-    EXPECT_LT(d.depth, 0.01);                // vertices are rounded otherwise in a slab
-    EXPECT_LT(d.colour, 1.0 / 2000);
-    EXPECT_LT(d.normal, 1e-3);
-    RecordProperty("wrong", std::to_string(d.wrong_count));
-    RecordProperty("slab_draws", std::to_string(slabs.report.layer_draws));
-}
-
-TEST_F(LayersOf, SlabsOfSpheresOneInTheOther) {
-    options.layer_method = LayerMethod::slab;
-    const Cast cast = complete_cast_of(nested_spheres);
-    const LayerErrors e = layer_errors(cast, nested_bodies);
-    EXPECT_LT(e.wrong_count, e.rays / 100);
-    EXPECT_LT(e.depth_max, 0.1);
-    EXPECT_LT(e.normal_max, 2);
-    EXPECT_LT(e.colour_max, 1.0 / 255);
-    options.most_layers = 3;
-    const Cast fewer = cast_of(nested_spheres);
-    EXPECT_EQ(fewer.report.layers, Layers::incomplete);
-    EXPECT_EQ(fewer.report.layer_count[0], 3);
-}
-
-/// More hits than may be held: what is there stays, and it is said that more is not.
-TEST_F(LayersOf, SlabsHoldNoMoreThanTwoImages) {
-    options.layer_method = LayerMethod::slab;
-    const Cast cast = cast_of([](const GlTable& gl) {
-        set_lit(gl);
-        for (const double half : {0.95, 0.9, 0.85, 0.8, 0.75})
-            draw_box(gl, glm::dvec3(-half), glm::dvec3(half));
-    });
-    EXPECT_TRUE(cast.report.ok) << cast.report.error;
-    EXPECT_EQ(cast.report.layers, Layers::incomplete);
-    EXPECT_GE(cast.report.layer_count[0], 3);
-}
-
-/// Three sheets within a thinnest slab, not near enough to be one.
-TEST_F(LayersOf, SlabsSayWhenTheyAreNotEnough) {
-    const auto draw = [](const GlTable& gl) {
-        set_lit(gl);
-        draw_box(gl, glm::dvec3(-0.95), glm::dvec3(0.95));
-        for (int k = 0; k < 4; ++k) {
-            draw_sheet(gl, 0, 3);
-            gl.Translated(0, 0, 1.05 * SameHit::flat * view_box.size / 64);
-        }
-    };
-    EXPECT_EQ(complete_cast_of(draw).report.layer_count[2], 5);
-    options.layer_method = LayerMethod::slab;
-    const Cast cast = cast_of(draw);
-    EXPECT_TRUE(cast.report.ok) << cast.report.error;
-    EXPECT_EQ(cast.report.layers, Layers::incomplete);
-    EXPECT_FALSE(cast.report.axis_complete[2]);
-}
-
-TEST_F(LayersOf, WithoutShadersSlabsAreTaken) {
-    options.box = wide_box;
-    options.use_shaders = false;
-    EXPECT_EQ(cast_of(many_bodies).report.layer_method, LayerMethod::slab);
-    options.use_shaders = true;
-    GlTable old = gl;
-    old.CreateShader = nullptr;
-    const Cast cast = capture(old, many_bodies, options);
-    EXPECT_EQ(cast.report.layer_method, LayerMethod::slab);
-    EXPECT_EQ(cast.report.layers, Layers::complete);
-}
-
-/// A driver whose depths differ between the fixed fragment stage and a shader: nothing would be at equal
-/// depth.
-TEST_F(LayersOf, ADriverThatIsNotInvariantGetsSlabs) {
-    options.box = wide_box;
-    static const GlTable& real = gl;
-    GlTable other = gl;
-    other.UseProgram = [](GLuint program) {
-        real.UseProgram(program);
-        if (program == 0) return;
-        real.PolygonOffset(0, 4);
-        real.Enable(GL_POLYGON_OFFSET_FILL);
-    };
-    const Cast cast = capture(other, many_bodies, options);
-    EXPECT_EQ(cast.report.layer_method, LayerMethod::slab);
-    EXPECT_EQ(cast.report.layers, Layers::complete);
-    EXPECT_LE(layer_difference(cast, cast_of(many_bodies)).wrong_count, 10);
-}
-
-/// What a program draws by shaders of its own is not peeled, and that is said.
-TEST_F(LayersOf, ProgramsOfTheProgramMakeThemIncomplete) {
-    const char* source = "void main() { gl_FragColor = vec4(1.0, 0.0, 0.0, 1.0); }";
-    const GLuint shader = gl.CreateShader(GL_FRAGMENT_SHADER), program = gl.CreateProgram();
-    gl.ShaderSource(shader, 1, &source, nullptr);
-    gl.CompileShader(shader);
-    gl.AttachShader(program, shader);
-    gl.LinkProgram(program);
-    const Cast cast = cast_of([program](const GlTable& gl) {
-        set_lit(gl);
-        draw_box(gl, glm::dvec3(-0.9), glm::dvec3(0.9));
-        draw_box(gl, glm::dvec3(-0.5), glm::dvec3(0.5));
-        gl.UseProgram(program);
-        draw_box(gl, glm::dvec3(-0.7), glm::dvec3(0.7));
-        gl.UseProgram(0);
-    });
-    EXPECT_TRUE(cast.report.ok) << cast.report.error;
-    EXPECT_EQ(cast.report.layers, Layers::incomplete);
-    EXPECT_EQ(cast.report.layer_count[0], 3) << "the box between is drawn by a shader";
-    EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
-}
-
-/// The program's textures may be rectangles on any unit, and its pixel store anything.
-TEST_F(LayersOf, StateOfTheSceneDoesNotReachTheShader) {
-    const auto hostile = [](const GlTable& gl) {
-        GLint units = 1;
-        gl.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
-        for (int unit = 0; unit < units; ++unit) {
-            gl.ActiveTexture(GL_TEXTURE0 + unit);
-            gl.BindTexture(GL_TEXTURE_RECTANGLE, 0);
-        }
-        gl.ActiveTexture(GL_TEXTURE0);
-        gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 7);
-        gl.PixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
-        gl.PixelTransferf(GL_RED_SCALE, 0.5f);
-        gl.PixelTransferi(GL_INDEX_OFFSET, 3);
-        many_bodies(gl);
-    };
-    const LayerDifference d = layer_difference(complete_cast_of(hostile), complete_cast_of(many_bodies));
-    EXPECT_EQ(d.wrong_count, 0);
-    EXPECT_EQ(d.depth + d.colour + d.normal, 0);
 }
 
 } // namespace

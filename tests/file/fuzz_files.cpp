@@ -4,9 +4,9 @@
 
 #include <cstring>
 #include <random>
-#include <sys/resource.h>
 
 #include "tests/file/file_tools.h"
+#include "tests/file/memory_limit.h"
 #include "tests/file/sample_meshes.h"
 #include "tests/file/sphere_capture.h"
 #include "tests/file/textured_torus.h"
@@ -15,30 +15,10 @@
 
 using namespace glcast;
 using namespace glcast::samples;
+using glcast::test::MemoryLimit;
+using glcast::test::with_sanitizer;
 
 namespace {
-
-constexpr bool with_sanitizer =
-#ifdef __SANITIZE_ADDRESS__
-    true;
-#else
-    false;
-#endif
-
-/// An allocation beyond a gigabyte fails, which the readers must never need for small files.
-class MemoryLimit {
-  public:
-    MemoryLimit() {
-        getrlimit(RLIMIT_AS, &before);
-        rlimit small = before;
-        small.rlim_cur = 1u << 30;
-        if (!with_sanitizer) setrlimit(RLIMIT_AS, &small); // shadow memory is larger than that
-    }
-    ~MemoryLimit() { setrlimit(RLIMIT_AS, &before); }
-
-  private:
-    rlimit before{};
-};
 
 template <class Read>
 int refusals(const Folder& folder, const std::string& whole, const char* name, int times, Read&& read) {

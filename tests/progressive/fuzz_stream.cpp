@@ -2,9 +2,9 @@
 // in them, the reader reads or throws std::runtime_error, within memory that the stream's size explains.
 // Fixed seeds.
 #include <sstream>
-#include <sys/resource.h>
 
 #include "tests/file/file_tools.h"
+#include "tests/file/memory_limit.h"
 #include "tests/mesh/bodies.h"
 #include "tests/progressive/bodies.h"
 #include "tools/progressive/geomorph.h"
@@ -15,27 +15,6 @@ namespace glcast::test {
 namespace {
 
 using namespace progressive;
-
-constexpr bool with_sanitizer =
-#ifdef __SANITIZE_ADDRESS__
-    true;
-#else
-    false;
-#endif
-
-class MemoryLimit {
-  public:
-    MemoryLimit() {
-        getrlimit(RLIMIT_AS, &before);
-        rlimit small = before;
-        small.rlim_cur = 1u << 30;
-        if (!with_sanitizer) setrlimit(RLIMIT_AS, &small);
-    }
-    ~MemoryLimit() { setrlimit(RLIMIT_AS, &before); }
-
-  private:
-    rlimit before{};
-};
 
 template <class T> T number(const std::string& bytes, std::size_t at) {
     T value = 0;
