@@ -132,8 +132,6 @@ TEST(OpenMeshPm, TheReaderOfTheseTestsReadsOpenMeshsOwn) {
 /// OpenMesh's own program (Debian: libopenmesh-apps) reads a .pm, refines it fully and writes its vertex
 /// hierarchy.
 TEST(OpenMeshPm, TheAnalyzerOfOpenMeshTakesIt) {
-    if (std::system("command -v OpenMesh-Analyzer >/dev/null") != 0)
-        GTEST_SKIP() << "OpenMesh-Analyzer is not installed";
     const Folder folder;
     const LoggedBody body = small_body();
     ProgressiveMesh mesh(body.mesh, body.log);
