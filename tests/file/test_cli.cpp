@@ -57,6 +57,26 @@ TEST_F(Command, ValidatorFindsNothingInACast) {
     EXPECT_EQ(ran.status, 0) << ran.output;
 }
 
+TEST_F(Command, TexturesOfEveryLevelThatIsWritten) {
+    const std::string mesh = "mesh " + file("s.exr") + " --texture 128 --triangles 400,100 -o ";
+    const Json glb = json_of(mesh + file("s.glb"));
+    EXPECT_EQ(glb["levels"].size(), 3u) << "the full surface first";
+    for (const char* name : {"s.ply", "s.obj"}) {
+        const Json json = json_of(mesh + file(name));
+        ASSERT_EQ(json["levels"].size(), 2u) << name;
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_LE(json["levels"][k]["triangles"], k ? 100 : 400);
+            EXPECT_EQ(json["levels"][k]["texture"], glb["levels"][k + 1]["texture"]) << name;
+        }
+    }
+    for (const char* name : {"s.colour.png", "s.lod1.colour.png", "s.mtl", "s.lod1.mtl"})
+        EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
+    const Ran ran = run("node " GLCAST_VALIDATE " " + file("s.glb"));
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    EXPECT_EQ(glcast_run("mesh " + file("s.exr") + " -o " + file("t.glb") + " --texture 100").status, 2);
+    EXPECT_FALSE(std::filesystem::exists(file("t.glb")));
+}
+
 TEST_F(Command, InfoOfACapture) {
     const Json info = json_of("info " + file("s.exr"));
     EXPECT_EQ(info["kind"], "capture");

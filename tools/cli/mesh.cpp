@@ -174,7 +174,8 @@ void make_levels(const Options& options, Made& made) {
 void bake_textures(const Options& options, Made& made) {
     if (!options.texture) return;
     const Stopwatch watch;
-    made.textures = texture_levels(made.levels, made.captured, options.texture);
+    const std::span<Level> written = std::span(made.levels).subspan(made.keep_full ? 0 : 1);
+    made.textures = texture_levels(written, made.captured, options.texture);
     made.captured = {}; // it is large
     made.texture_seconds = watch.seconds();
 }
@@ -210,7 +211,6 @@ void write(const Options& options, Made& made) {
     const Stopwatch watch;
     if (!options.pm.empty()) write_pm(options.pm, made.full(), made.log, made.sample);
     if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
-    if (made.textures.size() > made.levels.size()) made.textures.erase(made.textures.begin());
     made.files = write_levels(options.output, made.levels, {compression(options), options.split});
     made.write_seconds = watch.seconds();
 }
