@@ -29,6 +29,10 @@ namespace {
 constexpr double far_ratios[] = {100, 3'000, 1e6};
 
 /// Contexts of ours current with the program's drawables, and the program's own again at the end.
+///
+/// No sibling outlives its frame: what it holds the program may delete before the next one, and what it has pushed
+/// comes back when it is popped, into textures that contexts share. A driver may also let an object that has lost
+/// its name point at a context that is gone (Mesa's sampler views).
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
@@ -40,6 +44,7 @@ class SiblingScope {
     }
     ~SiblingScope() {
         if (!system.bind(program)) say_once("the program's context could not be made current again");
+        for (const auto& [context, sibling] : made) context->system->destroy(context->display, sibling);
     }
     SiblingScope(const SiblingScope&) = delete;
     SiblingScope& operator=(const SiblingScope&) = delete;
@@ -47,24 +52,34 @@ class SiblingScope {
     /// A sibling of `part`'s context. Its own drawable may not fit the one that is current, which may not fit
     /// its configuration; framebuffer objects need none.
     void enter(const FramePart& part) {
-        NativeContext& context = *part.context;
+        const NativeContext& context = *part.context;
         if (entered == &context) return;
-        if (!context.sibling) context.sibling = context.make_sibling();
-        if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
-        entered = &context;
-        Binding binding{context.display, program.draw, program.read, context.sibling};
+        entered = nullptr;
+        Binding binding{context.display, program.draw, program.read, sibling_of(context)};
         const bool same_display = program.context && program.display == context.display;
-        if (same_display && context.system->bind(binding)) return;
+        bool bound = same_display && context.system->bind(binding);
         for (const std::uintptr_t drawable : {part.drawable, std::uintptr_t(0)}) {
+            if (bound) break;
             binding.draw = binding.read = drawable;
-            if (context.system->can_return_to(binding) && context.system->bind(binding)) return;
+            bound = context.system->can_return_to(binding) && context.system->bind(binding);
         }
-        throw std::runtime_error("the second context cannot be made current");
+        if (!bound) throw std::runtime_error("the second context cannot be made current");
+        entered = &context;
     }
 
   private:
+    void* sibling_of(const NativeContext& context) {
+        if (const auto found = made.find(&context); found != made.end()) return found->second;
+        void*& sibling = made[&context];
+        sibling = context.make_sibling();
+        if (sibling) return sibling;
+        made.erase(&context);
+        throw std::runtime_error("no second context can be made beside the program's");
+    }
+
     const WindowSystem& system;
     Binding program;
+    std::map<const NativeContext*, void*> made;
     const NativeContext* entered = nullptr;
 };
 

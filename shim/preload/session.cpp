@@ -301,20 +301,13 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
 
 void context_destroyed(void* handle) noexcept {
     guarded([&](Session& s) {
-        const WindowSystem* system = nullptr;
-        void *display = nullptr, *sibling = nullptr;
-        {
-            const std::lock_guard lock(s.mutex);
-            NativeContext* context = find_context(s, handle);
-            if (!context) return;
-            system = context->system, display = context->display;
-            std::swap(sibling, context->sibling);
-            context->destroyed = true;
-            if (context->threads == 0) close_recording(s, *context);
-            std::erase_if(s.parts, [&](const FramePart& part) { return part.context.get() == context; });
-            forget_if_unused(s, context);
-        }
-        if (sibling) system->destroy(display, sibling);
+        const std::lock_guard lock(s.mutex);
+        NativeContext* context = find_context(s, handle);
+        if (!context) return;
+        context->destroyed = true;
+        if (context->threads == 0) close_recording(s, *context);
+        std::erase_if(s.parts, [&](const FramePart& part) { return part.context.get() == context; });
+        forget_if_unused(s, context);
     });
 }
 

@@ -21,7 +21,6 @@ struct NativeContext {
     std::function<void*()>
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
     std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
-    void* sibling = nullptr;                 ///< made when first needed, ours to destroy
     bool recording = false;
     std::uintptr_t recorded_drawable = 0;
     int threads = 0; ///< on which it is current

@@ -84,14 +84,6 @@ void finish(Session& s, FrameKey window, long number, const CastResult& result) 
     if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
 }
 
-void destroy_siblings(const std::vector<FramePart>& parts) {
-    for (const FramePart& part : parts) {
-        if (part.context->sibling)
-            part.context->system->destroy(part.context->display, part.context->sibling);
-        part.context->sibling = nullptr;
-    }
-}
-
 void look_at_windows(Session& s, const NativeContext& context) {
     std::vector<std::uint32_t> names;
     {
@@ -193,7 +185,6 @@ void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window
     if (!turn) return;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
-    if (!nothing) destroy_siblings(parts);
     if (among_windows(s, window.second, result)) return;
     nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shim/record/bound_objects.h"
+
 namespace glcast::record {
 
 namespace {
@@ -23,36 +25,18 @@ constexpr Target targets[] = {
     {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, 43},
 };
 
-/// Binds a buffer to GL_ARRAY_BUFFER, which no vertex array object holds, for as long as it lives.
-class Bound {
-  public:
-    Bound(const GlTable& table, GLuint name)
-        : gl(table), before(GLuint(get_int(gl, GL_ARRAY_BUFFER_BINDING))) {
-        gl.BindBuffer(GL_ARRAY_BUFFER, name);
-    }
-    ~Bound() { gl.BindBuffer(GL_ARRAY_BUFFER, before); }
-    Bound(const Bound&) = delete;
-    Bound& operator=(const Bound&) = delete;
+std::size_t size_of(const BoundBuffer& buffer) {
+    return std::size_t(std::max(buffer.parameter(GL_BUFFER_SIZE), 0));
+}
 
-    GLint parameter(GLenum name) const {
-        GLint value = 0;
-        gl.GetBufferParameteriv(GL_ARRAY_BUFFER, name, &value);
-        return value;
-    }
-    std::size_t size() const { return std::size_t(std::max(parameter(GL_BUFFER_SIZE), 0)); }
-    bool persistent(const Limits& limits) const {
-        return limits.has(44, "GL_ARB_buffer_storage") && parameter(GL_BUFFER_MAPPED) &&
-               (parameter(GL_BUFFER_ACCESS_FLAGS) & GL_MAP_PERSISTENT_BIT);
-    }
-    bool readable(const Limits& limits) const { return !parameter(GL_BUFFER_MAPPED) || persistent(limits); }
-    void read(std::size_t offset, void* to, std::size_t bytes) const {
-        gl.GetBufferSubData(GL_ARRAY_BUFFER, GLintptr(offset), GLsizeiptr(bytes), to);
-    }
+bool is_persistent(const BoundBuffer& buffer, const Limits& limits) {
+    return limits.has(44, "GL_ARB_buffer_storage") && buffer.parameter(GL_BUFFER_MAPPED) &&
+           (buffer.parameter(GL_BUFFER_ACCESS_FLAGS) & GL_MAP_PERSISTENT_BIT);
+}
 
-  private:
-    const GlTable& gl;
-    GLuint before;
-};
+bool is_readable(const BoundBuffer& buffer, const Limits& limits) {
+    return !buffer.parameter(GL_BUFFER_MAPPED) || is_persistent(buffer, limits);
+}
 
 constexpr int changes_worth_copies = 2; // after these, a buffer is read piece by piece
 
@@ -96,9 +80,9 @@ ForgetBuffer::~ForgetBuffer() {
 
 bool read_buffer(Context& context, GLuint name, std::size_t offset, void* to, std::size_t bytes) {
     if (!context.can_query() || !context.real.IsBuffer(name)) return false;
-    const Bound buffer(context.real, name);
-    const std::size_t size = buffer.size();
-    if (offset > size || bytes > size - offset || !buffer.readable(context.get_limits())) return false;
+    const BoundBuffer buffer(context, name);
+    const std::size_t size = size_of(buffer);
+    if (offset > size || bytes > size - offset || !is_readable(buffer, context.get_limits())) return false;
     buffer.read(offset, to, bytes);
     return true;
 }
@@ -111,15 +95,16 @@ Blob whole_buffer(Context& context, GLuint name) {
     }
     if (!context.can_query() || !context.real.IsBuffer(name)) return nullptr;
     if (context.recording && context.recording->buffer_changes[name] > changes_worth_copies) return nullptr;
-    const Bound buffer(context.real, name);
+    const BoundBuffer buffer(context, name);
     const Limits& limits = context.get_limits();
-    if (!buffer.readable(limits) || buffer.persistent(limits)) return nullptr;
+    if (!is_readable(buffer, limits) || is_persistent(buffer, limits)) return nullptr;
+    const std::size_t size = size_of(buffer);
     if (context.recording) {
         std::size_t& copied = context.recording->copied_bytes;
-        if (buffer.size() > memory_limit - std::min(copied, memory_limit)) throw std::bad_alloc();
-        copied += buffer.size();
+        if (size > memory_limit - std::min(copied, memory_limit)) throw std::bad_alloc();
+        copied += size;
     }
-    auto copy = std::make_shared<std::vector<std::byte>>(buffer.size());
+    auto copy = std::make_shared<std::vector<std::byte>>(size);
     buffer.read(0, copy->data(), copy->size());
     const std::lock_guard lock(group.mutex);
     return group.buffers[name] = std::move(copy);

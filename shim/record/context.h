@@ -62,7 +62,7 @@ struct Frame {
     std::unordered_map<GLuint, List> lists; ///< as they stood at the start
     std::vector<List> redefinitions;        ///< by number, from define_list packets
     std::vector<Blob> blobs;                ///< by number, from draw packets
-    std::vector<TextureCopy> textures;      ///< by number, from end_texture packets
+    std::vector<TextureCopy> textures;      ///< by number, from end_texture packets or nameless from the start
     mutable std::vector<GLuint> stand_ins;  ///< texture objects that hold these, made by the first replay
     std::set<GLenum> filled_defaults; ///< targets whose texture named 0 gets an image in the frame
     mutable std::map<GLenum, GLuint> default_textures; ///< target -> what replays bind for its texture named 0
@@ -98,6 +98,7 @@ struct Recording {
         std::uint64_t draws; ///< when it was bound first, or copied last
     };
     std::unordered_map<GLuint, TextureUse> textures;
+    std::unordered_map<GLuint, std::uint32_t> nameless; ///< copies of those that no name finds, by what it was
     std::uint64_t draws = 0;
     bool calls_lists = false; ///< which may bind any texture
     std::optional<std::unordered_map<GLuint, GLenum>> list_textures; ///< their targets; found when first asked for

@@ -27,11 +27,14 @@ void start_recording(Context& context) {
     write_state(context, recording->frame->prologue, true);
     read_matrices(context, *recording);
     note_bound_textures(*recording);
-    const std::lock_guard lock(context.group->mutex);
-    recording->frame->lists = context.group->lists;
-    recording->seen_changes = context.group->changes.size();
-    ++context.group->recording;
-    context.recording = std::move(recording);
+    {
+        const std::lock_guard lock(context.group->mutex);
+        recording->frame->lists = context.group->lists;
+        recording->seen_changes = context.group->changes.size();
+        ++context.group->recording;
+        context.recording = std::move(recording);
+    }
+    copy_nameless_textures(context);
 }
 
 } // namespace

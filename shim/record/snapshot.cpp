@@ -327,6 +327,10 @@ DefaultPacking::DefaultPacking(Context& of) : context(of) {
         {GL_PACK_SKIP_PIXELS, 0}, {GL_PACK_ALIGNMENT, 1}, {GL_PACK_SKIP_IMAGES, 0}, {GL_PACK_IMAGE_HEIGHT, 0},
     };
     const GlTable& gl = context.real;
+    // The stack keeps a buffer that another context has deleted, which no name binds again.
+    is_pushed = context.get_limits().compatibility &&
+                get_int(gl, GL_CLIENT_ATTRIB_STACK_DEPTH) < get_int(gl, GL_MAX_CLIENT_ATTRIB_STACK_DEPTH);
+    if (is_pushed) gl.PushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
     const int known = context.get_limits().has(12) ? count : count - 2;
     for (int i = 0; i < known; ++i) {
         before[i] = get_int(gl, GLenum(defaults[i][0]));
@@ -341,6 +345,10 @@ DefaultPacking::~DefaultPacking() {
     static constexpr GLenum names[count] = {GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST,   GL_PACK_ROW_LENGTH,
                                             GL_PACK_SKIP_ROWS,   GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT,
                                             GL_PACK_SKIP_IMAGES, GL_PACK_IMAGE_HEIGHT};
+    if (is_pushed) {
+        context.real.PopClientAttrib();
+        return;
+    }
     const int known = context.get_limits().has(12) ? count : count - 2;
     for (int i = 0; i < known; ++i) context.real.PixelStorei(names[i], before[i]);
     if (buffer) context.real.BindBuffer(GL_PIXEL_PACK_BUFFER, buffer);

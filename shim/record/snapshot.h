@@ -41,6 +41,7 @@ class DefaultPacking {
     Context& context;
     GLint before[count];
     GLuint buffer = 0;
+    bool is_pushed = false;
 };
 
 } // namespace glcast::record

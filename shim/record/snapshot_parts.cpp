@@ -1,6 +1,7 @@
 // Lights and materials, texture units, the texture objects named 0, evaluators.
 #include <iterator>
 
+#include "shim/record/bound_objects.h"
 #include "shim/record/packets.h"
 #include "shim/record/snapshot.h"
 
@@ -255,15 +256,14 @@ void write_textures(Context& context, Stream& stream) {
 }
 
 void write_default_textures(Context& context, Stream& stream) {
-    const GlTable& gl = context.real;
     for (const TextureTarget& row : texture_targets) {
         if (!context.get_limits().has(row.since, row.extension)) continue;
-        const auto bound = GLuint(get_int(gl, row.binding));
-        if (bound) gl.BindTexture(row.target, 0);
+        const auto before = GLuint(get_int(context.real, row.binding));
+        const BoundTexture bound(context, row.target, 0);
+        if (!bound) continue;
         packets::BindTexture::write(stream, row.target, 0);
         write_texture(context, stream, row.target);
-        packets::BindTexture::write(stream, row.target, bound);
-        if (bound) gl.BindTexture(row.target, bound);
+        packets::BindTexture::write(stream, row.target, before);
     }
 }
 

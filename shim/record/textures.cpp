@@ -1,29 +1,11 @@
 #include "shim/record/textures.h"
 
+#include "shim/record/bound_objects.h"
 #include "shim/record/packets.h"
 #include "shim/record/snapshot.h"
 
 namespace glcast::record {
 namespace {
-
-/// Binds a texture for as long as it lives.
-class BoundTexture {
-  public:
-    BoundTexture(const GlTable& table, GLenum of, GLuint name)
-        : gl(table), target(of), before(GLuint(get_int(table, texture_binding(of)))), bound(name) {
-        if (before != bound) gl.BindTexture(target, bound);
-    }
-    ~BoundTexture() {
-        if (before != bound) gl.BindTexture(target, before);
-    }
-    BoundTexture(const BoundTexture&) = delete;
-    BoundTexture& operator=(const BoundTexture&) = delete;
-
-  private:
-    const GlTable& gl;
-    const GLenum target;
-    const GLuint before, bound;
-};
 
 /// glPixelTransfer at its defaults for as long as it lives: it applies to glGetTexImage too.
 class DefaultTransfer {
@@ -74,24 +56,34 @@ bool is_sampled(Context& context, GLenum target) {
     return true;
 }
 
-void copy_texture(Context& context, GLuint name, GLenum target, bool deleted) {
+/// Keeps what the texture that is bound to `target` holds now; its number, or nothing where fixed functions
+/// do not sample it.
+std::optional<std::uint32_t> copy_bound(Context& context, GLuint name, GLenum target) {
     Recording& recording = *context.recording;
     if (recording.texture_bytes >= memory_limit) throw std::bad_alloc();
+    if (!is_sampled(context, target)) return std::nullopt;
     TextureCopy copy{name, target, {}};
     copy.contents.most_bytes = memory_limit - recording.texture_bytes;
     {
-        const BoundTexture bound(context.real, target, name);
-        if (!is_sampled(context, target)) return;
         const DefaultTransfer transfer(context.real);
         write_texture(context, copy.contents, target);
     }
     copy.contents.shrink();
     recording.texture_bytes += copy.contents.allocated_bytes();
     recording.frame->textures.push_back(std::move(copy));
-    const auto number = std::uint32_t(recording.frame->textures.size() - 1);
+    return std::uint32_t(recording.frame->textures.size() - 1);
+}
+
+void emit_end(Context& context, std::uint32_t number, bool deleted) {
     context.emit(false, [&](Stream& stream) {
         Writer(stream.append(Op(ExtraOp::end_texture), 8)).put(number).put(std::uint32_t(deleted));
     });
+}
+
+void copy_texture(Context& context, GLuint name, GLenum target, bool deleted) {
+    std::optional<std::uint32_t> number;
+    if (const BoundTexture bound(context, target, name); bound) number = copy_bound(context, name, target);
+    if (number) emit_end(context, *number, deleted);
 }
 
 void end_texture(Context& context, GLuint name, GLenum target, bool deleted) {
@@ -99,6 +91,8 @@ void end_texture(Context& context, GLuint name, GLenum target, bool deleted) {
     const auto [use, is_new] = recording.textures.try_emplace(name, Recording::TextureUse{target, 0});
     if (recording.draws == use->second.draws) return; // nothing can have been drawn from it
     use->second = {target, recording.draws};
+    if (recording.nameless.contains(name))
+        return context.count("a texture changed that another context has deleted");
     // While a list is open, binding the texture for it would go into the list.
     if (context.compilation)
         return context.count("a texture changed while a list was made, after it was drawn from");
@@ -144,6 +138,7 @@ template <class Work> void guarded(Context& context, Work&& work) noexcept {
 
 void note_deletion(Context& context, GLuint name) {
     guarded(context, [&](Recording& recording) {
+        if (recording.nameless.contains(name)) return; // another's name, or nobody's
         if (const GLenum target = target_of(context, name)) end_texture(context, name, target, true);
         recording.textures.erase(name); // the name may come again as another texture's
     });
@@ -159,6 +154,26 @@ void note_bound_textures(Recording& recording) {
         if (const auto name = reader.get<GLuint>())
             recording.textures.try_emplace(name, Recording::TextureUse{target, 0});
     });
+}
+
+void copy_nameless_textures(Context& context) {
+    const GlTable& gl = context.real;
+    const Limits& limits = context.get_limits();
+    std::vector<std::pair<GLuint, GLenum>> nameless;
+    for (const auto& [name, use] : context.recording->textures)
+        if (!gl.IsTexture(name)) nameless.emplace_back(name, use.target);
+    if (nameless.empty()) return;
+    const auto active = limits.has(13) ? GLenum(get_int(gl, GL_ACTIVE_TEXTURE, GL_TEXTURE0)) : 0;
+    for (const auto& [name, target] : nameless)
+        for (int unit = 0; unit < limits.texture_units; ++unit) {
+            if (active) gl.ActiveTexture(GLenum(GL_TEXTURE0 + unit));
+            if (GLuint(get_int(gl, texture_binding(target))) != name) continue;
+            guarded(context, [&, name = name, target = target](Recording& recording) {
+                if (const auto number = copy_bound(context, name, target)) recording.nameless[name] = *number;
+            });
+            break;
+        }
+    if (active) gl.ActiveTexture(active);
 }
 
 void copy_before_change(Context& context, GLenum target) {
@@ -186,6 +201,9 @@ void APIENTRY BindTexture(GLenum target, GLuint name) {
     Context* context = listening_context();
     if (context)
         context->emit(true, [&](Stream& stream) { packets::BindTexture::write(stream, target, name); });
+    if (context && context->recording && context->executes())
+        if (const auto gone = context->recording->nameless.extract(name))
+            emit_end(*context, gone.mapped(), false); // the name is another object's, from now on
     const Recording* recording =
         context && context->executes() && context->can_query() ? context->recording.get() : nullptr;
     const GLenum binding =

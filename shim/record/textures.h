@@ -12,10 +12,15 @@ namespace glcast::record {
 /// Those that are bound when the frame starts, found in its prologue.
 void note_bound_textures(Recording& recording);
 
+/// Those that are bound and that another context has deleted: no name finds them at replay. When the frame
+/// starts.
+void copy_nameless_textures(Context& context);
+
 /// Before a call that changes what is bound to `target` (or a face of a cube). Needs `can_query`.
 void copy_before_change(Context& context, GLenum target);
 
-/// Before an image goes into what is bound to `target`: whether that is the texture named 0. Needs `can_query`.
+/// Before an image goes into what is bound to `target`: whether that is the texture named 0. Needs
+/// `can_query`.
 bool note_default_filled(Context& context, GLenum target);
 
 } // namespace glcast::record

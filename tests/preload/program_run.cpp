@@ -47,7 +47,9 @@ Outcome run_program(const std::vector<std::string>& arguments, const Environment
                            {"LIBGL_ALWAYS_SOFTWARE", "1"},
                            {"LP_NUM_THREADS", "1"},
                            {"ASAN_OPTIONS", "detect_leaks=0"},
-                           {"UBSAN_OPTIONS", "halt_on_error=1:print_stacktrace=1"}};
+                           {"UBSAN_OPTIONS", "halt_on_error=1:print_stacktrace=1"},
+                           {"TSAN_OPTIONS", "halt_on_error=1:second_deadlock_stack=1:die_after_fork=0:"
+                                            "suppressions=" GLCAST_SUPPRESSIONS}};
     command.environment.insert(command.environment.end(), environment.begin(), environment.end());
     if (preload) command.environment.emplace_back("LD_PRELOAD", preload_list());
     return run(command);

@@ -87,7 +87,7 @@ void set_texture(const GlTable& gl, GLenum target, int seed) {
     gl.TexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
 }
 
-void set_textures(const GlTable& gl) {
+void set_textures(const GlTable& gl, bool fill_0) {
     constexpr GLenum targets[] = {GL_TEXTURE_2D, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP,
                                   GL_TEXTURE_RECTANGLE};
     for (int unit = 7; unit >= 0; --unit) {
@@ -111,11 +111,11 @@ void set_textures(const GlTable& gl) {
         gl.MatrixMode(GL_TEXTURE);
         gl.PushMatrix(), gl.Scalef(2, 3, number(unit)), gl.PushMatrix(), gl.Translatef(1, 2, 3);
     }
-    // The texture named 0, which contexts do not share.
+    // The texture named 0, which contexts may share or not.
     gl.ActiveTexture(GL_TEXTURE3);
     gl.BindTexture(GL_TEXTURE_2D, 0);
     static const GLubyte own[16] = {255, 1, 2, 3};
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, own);
+    if (fill_0) gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, own);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_MIRRORED_REPEAT);
     gl.TexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
     gl.ActiveTexture(GL_TEXTURE5);
@@ -279,12 +279,12 @@ void set_lists(const GlTable& gl) {
 
 Memory client_memory() { return {memory, sizeof memory}; }
 
-void set_hostile_state(const GlTable& gl) {
+void set_hostile_state(const GlTable& gl, bool fill_0) {
     set_lights(gl);
     set_evaluators(gl);
     set_primitives(gl);
     set_fragments(gl);
-    set_textures(gl);
+    set_textures(gl, fill_0);
     set_stacks(gl);
     set_pixels(gl);
     set_arrays(gl);

@@ -5,8 +5,9 @@
 
 namespace glcast::test {
 
-/// Changes state of every kind that a compatibility context of GL 4.5 has. Leaves no error.
-void set_hostile_state(const GlTable& gl);
+/// Changes state of every kind that a compatibility context of GL 4.5 has. Leaves no error. `fill_0`: the texture
+/// named 0 gets an image too.
+void set_hostile_state(const GlTable& gl, bool fill_0);
 
 /// Where its client arrays, select and feedback buffers lie.
 Memory client_memory();

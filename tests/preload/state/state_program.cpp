@@ -1,7 +1,8 @@
 // Sets hostile state, ends a frame with it, and writes down before and after it everything that the context
 // can be asked.
 //
-// Usage: state_program glx|egl FOLDER   writes before, after, second, stacks and names into the folder
+// Usage: state_program glx|egl FOLDER [empty_0]   writes before, after, second, stacks and names into the folder;
+// empty_0: no image goes into a texture named 0
 #include <EGL/egl.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>
@@ -143,7 +144,7 @@ std::string next_names(const GlTable& gl) {
     return text.str();
 }
 
-int run(const std::string& system_name, const std::string& folder) {
+int run(const std::string& system_name, const std::string& folder, bool fill_0) {
     const auto write = [&](const char* name, const std::string& text) {
         std::ofstream(folder + '/' + name) << text;
     };
@@ -162,7 +163,7 @@ int run(const std::string& system_name, const std::string& folder) {
         return text.str();
     };
     draw_solid(gl);
-    set_hostile_state(gl);
+    set_hostile_state(gl, fill_0);
     const std::string before = ask();
     write("before", before);
     gl.Enable(GL_TEXTURE_WRAP_S); // an error that is to be found after the swap
@@ -181,9 +182,10 @@ int run(const std::string& system_name, const std::string& folder) {
 } // namespace glcast::test
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    const bool empty_0 = argc == 4 && std::string(argv[3]) == "empty_0";
+    if (argc != 3 && !empty_0) return 2;
     try {
-        return glcast::test::run(argv[1], argv[2]);
+        return glcast::test::run(argv[1], argv[2], !empty_0);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "state_program: %s\n", error.what());
         return 1;
