@@ -48,17 +48,25 @@ std::string enumerate(const Census& seen) {
     return text;
 }
 
-/// The kind that explains most comes first.
-const char* advice(const Census& seen) {
+/// What --include would add; empty when nothing.
+std::string strokes(const Census& seen) {
+    return seen.lines > 0 && seen.points > 0 ? "lines,points"
+           : seen.lines > 0                  ? "lines"
+           : seen.points > 0                 ? "points"
+                                             : "";
+}
+
+/// The kind that explains most comes first; empty when a frame was refused, which says enough.
+std::string advice(const Census& seen) {
     if (seen.foreign_frames > 0 && seen.foreign_frames == seen.frames)
         return "it draws with OpenGL ES, which has no fixed functions: only fixed-function drawing of desktop OpenGL can "
                "be cast";
+    const std::string more = strokes(seen);
     if (seen.shaders > 0)
-        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast";
-    if (!seen.refused.empty()) return nullptr;
-    if (seen.lines > 0 && seen.points > 0) return "--include lines,points casts these";
-    if (seen.lines > 0) return "--include lines casts these";
-    if (seen.points > 0) return "--include points casts these";
+        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast" +
+               (more.empty() ? "" : "; --include " + more + " casts its " + more);
+    if (!seen.refused.empty()) return {};
+    if (!more.empty()) return "--include " + more + " casts these";
     if (seen.solid > 0) return "--box can say where to look";
     if (seen.flat > 0) return "--list shows the groups, and --group K casts one";
     if (seen.pixels > 0) return "it paints pictures, no geometry";
@@ -73,7 +81,7 @@ std::string explain(const Census& seen) {
     std::string text = enumerate(seen);
     if (!seen.refused.empty())
         text += (text.empty() ? "" : "; ") + std::string("a frame could not be recorded: ") + seen.refused;
-    if (const char* what = advice(seen)) text += (text.empty() ? "" : "; ") + std::string(what);
+    if (const std::string what = advice(seen); !what.empty()) text += (text.empty() ? "" : "; ") + what;
     return text;
 }
 

@@ -27,6 +27,8 @@ GLint get_int(const GlTable& gl, GLenum name) {
 
 bool is_perspective(const glm::dmat4& p) { return p[0][3] != 0 || p[1][3] != 0 || p[2][3] != 0; }
 
+bool mirrors(const glm::dmat4& modelview) { return glm::determinant(glm::dmat3(modelview)) < 0; }
+
 bool contains(const std::array<GLint, 4>& outer, const std::array<GLint, 4>& inner) {
     return outer[0] <= inner[0] && outer[1] <= inner[1] && outer[0] + outer[2] >= inner[0] + inner[2] &&
            outer[1] + outer[3] >= inner[1] + inner[3];
@@ -80,10 +82,15 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
+        draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
+        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        draw.mirrors = mirrors(get_matrix(inner, GL_MODELVIEW_MATRIX));
         if (draw.kind == Draw::Kind::filled || draw.kind == Draw::Kind::outlined)
             group.writes_depth |= draw.writes_depth;
-        if (!group.base_modelview)
+        if (!group.base_modelview || (group.base_is_stencilled && !draw.stencilled)) {
             group.base_modelview = pushed ? *pushed : get_matrix(inner, GL_MODELVIEW_MATRIX);
+            group.base_is_stencilled = draw.stencilled;
+        }
         pushed.reset();
         ++group.draws;
         group.last_draw = static_cast<long>(scene.draws.size());
@@ -100,9 +107,16 @@ class Analysis final : public DrawGate {
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
                                              : group.points) += number;
+        if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
     }
 
   private:
+    bool writes_colour() const {
+        GLboolean mask[4] = {};
+        inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
+        return mask[0] || mask[1] || mask[2];
+    }
+
     Draw::Kind kind_of(GLenum mode) const {
         if (mode == GL_POINTS) return Draw::Kind::point;
         if (!has_faces(mode)) return Draw::Kind::line;
@@ -163,6 +177,8 @@ class GroupFilter final : public DrawGate {
   private:
     static bool is_solid(const Draw& draw, const Group& of) {
         if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
+        if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors])
+            return false;
         if (!of.writes_depth || draw.writes_depth) return true;
         return draw.tests_depth && !draw.before_depth;
     }

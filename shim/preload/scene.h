@@ -34,9 +34,13 @@ struct Group {
     long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
     long lines = 0, points = 0;
     bool writes_depth = false; ///< any filled draw
+    /// Of open draws; [1]: of those that mirror.
+    std::array<long, 2> open_triangles{};
     /// What the model's axes are taken from: the modelview at the first glPushMatrix before the group's first
-    /// draw that finds more than an identity, else the modelview of that draw.
+    /// draw that finds more than an identity, else the modelview of that draw. Draws under a stencil test, which may
+    /// be reflections, count only where there are no others.
     std::optional<glm::dmat4> base_modelview;
+    bool base_is_stencilled = false;
 
     /// Drawn in space, not on the screen.
     bool is_spatial() const { return kind != ProjectionKind::flat; }
@@ -49,6 +53,9 @@ struct Draw {
     enum class Kind { filled, outlined, line, point } kind = Kind::filled;
     bool tests_depth = false, writes_depth = false;
     bool before_depth = false; ///< nothing of the group had written depth yet
+    bool stencilled = false;   ///< kept to some places by a stencil test
+    bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
+    bool mirrors = false;      ///< its modelview turns right hands into left ones
 };
 
 struct Scene {
@@ -63,7 +70,9 @@ Scene analyse(const record::Frame& frame, const GlTable& gl);
 /// Which draws of a group are played.
 struct Wanted {
     /// Its filled draws, or the outlined ones where it has none. Of a group that writes depth, what neither tests
-    /// nor writes it is not solid (overlays), nor what was drawn before and wrote none (skies, backgrounds).
+    /// nor writes it is not solid (overlays), nor what was drawn before and wrote none (skies, backgrounds). Nor are
+    /// reflections: draws that a stencil test keeps to a mirror, their modelview of the other hand than that of most
+    /// which needs no stencil.
     bool solid = true;
     bool lines = false, points = false;
     bool everything = false; ///< as the program draws it

@@ -55,5 +55,143 @@ TEST(Scene, BaseModelviewIsTheFramesOwnWhateverLiesOnTheStack) {
     EXPECT_EQ((*base)[0], glm::dvec4(1, 0, 0, 0));
 }
 
+/// A triangle in one quarter of the picture, reached by a scale; clockwise or not is left to the scale.
+void draw_triangle(const GlTable& gl, float x, float y) {
+    gl.PushMatrix();
+    gl.Scalef(x, y, 1);
+    gl.Begin(GL_TRIANGLES);
+    gl.Vertex3f(0.1f, 0.1f, 0);
+    gl.Vertex3f(0.9f, 0.1f, 0);
+    gl.Vertex3f(0.1f, 0.9f, 0);
+    gl.End();
+    gl.PopMatrix();
+}
+
+struct Quarters {
+    bool right_up, left_up, left_down, right_down;
+    bool operator==(const Quarters&) const = default;
+};
+
+/// A frame of one group, drawn with the depth test on, and what is found out about it. Current afterwards is
+/// a context that shares the program's objects, its buffers clear.
+class Played {
+  public:
+    template <class Draw> explicit Played(const Draw& draw) {
+        program.make_current();
+        const auto context = record::make_context(program.gl(), nullptr);
+        record::set_current(context.get(), program.gl());
+        record::begin_frame(*context);
+        record::table().Enable(GL_DEPTH_TEST);
+        draw(record::table());
+        frame = record::end_frame(*context);
+        record::set_current(nullptr, program.gl());
+        sibling.make_current();
+        scene = analyse(*frame, sibling.gl());
+        EXPECT_EQ(scene.groups.size(), 1u);
+    }
+
+    /// What a replay leaves of the picture's quarters.
+    Quarters quarters(const Wanted& wanted = {}) {
+        sibling.gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        replay_group(*frame, scene, 0, wanted, sibling.gl());
+        const auto pixels = sibling.read_rgba();
+        const auto lit = [&](int x, int y) { return pixels[(y * 64 + x) * 4] > 0; };
+        return {lit(40, 40), lit(24, 40), lit(24, 24), lit(40, 24)};
+    }
+
+    Scene scene;
+
+  private:
+    test::OsmesaContext program, sibling{64, 64, &program};
+    std::shared_ptr<const record::Frame> frame;
+};
+
+void keep_to_stencil(const GlTable& gl) {
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilFunc(GL_EQUAL, 0, ~0u);
+}
+
+// Games and screen savers draw a scene once more, mirrored, where the stencil buffer says that the floor
+// shines.
+TEST(Scene, ReflectionsKeptToAMirrorByStencilAreNotPlayed) {
+    Played played([](const GlTable& gl) {
+        keep_to_stencil(gl);
+        draw_triangle(gl, 1, -1);
+        gl.Disable(GL_STENCIL_TEST);
+        draw_triangle(gl, 1, 1);
+        draw_triangle(gl, -1, -1); // turned by half a turn, not mirrored
+    });
+    EXPECT_EQ(played.quarters(), (Quarters{true, false, true, false}));
+    EXPECT_EQ(played.quarters({.everything = true}), (Quarters{true, false, true, true}));
+}
+
+TEST(Scene, WhatIsMirroredWithoutAStencilTestOrCutByOneUnmirroredIsPlayed) {
+    Played played([](const GlTable& gl) {
+        for (int i = 0; i < 3; ++i) draw_triangle(gl, 1, 1);
+        draw_triangle(gl, -1, 1);
+        keep_to_stencil(gl);
+        draw_triangle(gl, -1, -1);
+        gl.StencilFunc(GL_ALWAYS, 0, ~0u);
+        draw_triangle(gl, 1, -1);
+    });
+    EXPECT_EQ(played.quarters(), (Quarters{true, true, true, true}));
+}
+
+// A shadow thrown by a matrix into the stencil buffer may have any hand, and as many triangles as what throws
+// it.
+TEST(Scene, WhatOnlyMarksTheStencilBufferSaysNothingOfHands) {
+    Played played([](const GlTable& gl) {
+        draw_triangle(gl, 1, 1);
+        gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        for (int i = 0; i < 5; ++i) draw_triangle(gl, 1, -1);
+        gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        gl.Clear(GL_DEPTH_BUFFER_BIT);
+        keep_to_stencil(gl);
+        draw_triangle(gl, -1, -1);
+        draw_triangle(gl, -1, 1);
+    });
+    EXPECT_EQ(played.quarters(), (Quarters{true, false, true, false}));
+}
+
+// Hands are those of most that is drawn, whatever the view does.
+TEST(Scene, UnderAViewThatMirrorsAllReflectionsAreThoseOfTheOtherHand) {
+    Played played([](const GlTable& gl) {
+        draw_triangle(gl, -1, 1);
+        draw_triangle(gl, 1, -1);
+        keep_to_stencil(gl);
+        draw_triangle(gl, 1, 1);
+    });
+    EXPECT_EQ(played.quarters(), (Quarters{false, true, false, true}));
+}
+
+TEST(Scene, WhereAllIsKeptByStencilAllIsPlayed) {
+    Played played([](const GlTable& gl) {
+        keep_to_stencil(gl); // a toolkit's clip
+        draw_triangle(gl, -1, 1);
+        draw_triangle(gl, 1, 1);
+    });
+    EXPECT_EQ(played.quarters(), (Quarters{true, true, false, false}));
+}
+
+// Reflections come before what they reflect; with the axes of a mirror the cast would be of the other hand.
+TEST(Scene, ReflectionsDoNotGiveTheAxes) {
+    const auto mirrored_first = [](bool reflection) {
+        return Played([=](const GlTable& gl) {
+            gl.MatrixMode(GL_MODELVIEW);
+            if (reflection) keep_to_stencil(gl);
+            gl.Scalef(1, -1, 1);
+            draw_triangle(gl, 1, 1);
+            gl.Scalef(1, -1, 1);
+            gl.Disable(GL_STENCIL_TEST);
+            gl.Translatef(0, 0, 0.5f);
+            draw_triangle(gl, 1, 1);
+        });
+    };
+    const auto base = [](const Played& played) { return *played.scene.groups.at(0).base_modelview; };
+    EXPECT_EQ(base(mirrored_first(true))[1], glm::dvec4(0, 1, 0, 0));
+    EXPECT_EQ(base(mirrored_first(true))[3], glm::dvec4(0, 0, 0.5, 1));
+    EXPECT_EQ(base(mirrored_first(false))[1], glm::dvec4(0, -1, 0, 0));
+}
+
 } // namespace
 } // namespace glcast::preload
