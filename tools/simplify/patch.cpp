@@ -33,6 +33,7 @@ template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
     number_edges();
     mark.assign(position.size(), 0);
     near_refused.assign(position.size(), 0);
+    guard = CrossingGuard(guarded(), ghost == none || out[ghost] == none);
 }
 
 template <int N> void Patch<N>::find_twins() {
@@ -199,7 +200,27 @@ bool Patch<N>::keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec
 template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
-    return stage + 1 == std::size(strictness) || (keeps_shape(a, b, to) && keeps_shape(b, a, to));
+    if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
+    return !crosses(c, to);
+}
+
+/// Would the surface pass through itself where the edge has become a vertex?
+template <int N> bool Patch<N>::crosses(std::uint32_t c, const glm::dvec3& to) {
+    const std::uint32_t removed = at[c], kept = after(c);
+    change.replaced.clear();
+    change.made.clear();
+    change.moved = kept;
+    change.to = to;
+    const auto add = [&](std::uint32_t h, std::uint32_t gone) {
+        const std::uint32_t v = at[next(h)], w = at[previous(h)];
+        change.replaced.push_back(h / 3);
+        if (v != gone && w != gone && v != ghost && w != ghost) change.made.push_back({kept, v, w});
+    };
+    around(removed, [&](std::uint32_t h) { add(h, kept); });
+    around(kept, [&](std::uint32_t h) {
+        if (after(h) != removed && at[previous(h)] != removed) add(h, removed);
+    });
+    return guard.crosses(guarded(), change);
 }
 
 template <int N> void Patch<N>::refuse(std::uint32_t c) {
@@ -240,6 +261,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
+    guard.changed(guarded(), change.replaced);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);
