@@ -201,7 +201,7 @@ template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
     if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
-    return !crosses(c, to);
+    return strictness[stage].may_cross || !crosses(c, to);
 }
 
 /// Would the surface pass through itself where the edge has become a vertex?
@@ -251,6 +251,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     }
     const bool at_boundary = at[previous(c)] == ghost || at[previous(back)] == ghost;
     step = {kept, removed, source[kept], float(to.cost), to.point, at_boundary};
+    ++since_retry;
     quadrics[kept] += quadrics[removed];
     position[kept] = to.point;
     std::uint32_t h = c;
@@ -283,8 +284,12 @@ template <int N> void Patch<N>::queue_at(std::uint32_t v) {
 }
 
 template <int N> bool Patch<N>::relax() {
-    if (stage + 1 == std::size(strictness)) return false;
-    ++stage;
+    // What was in a collapse's way may have gone with another one.
+    if (since_retry == 0) {
+        if (stage + 1 == std::size(strictness)) return false;
+        ++stage;
+    }
+    since_retry = 0;
     for (std::uint32_t e = 0; e < half.size(); ++e) queue_again(e);
     return true;
 }

@@ -32,8 +32,10 @@ struct Step {
 struct Strictness {
     double min_cosine;  ///< between a triangle's normal before and after
     double min_quality; ///< 1 is equilateral, 0 degenerate; what was worse already may stay as bad
+    bool may_cross;     ///< the surface may pass through itself
 };
-constexpr Strictness strictness[] = {{0.2, 0.01}, {0.0, 1e-6}, {-2.0, 0.0}};
+constexpr Strictness strictness[] = {
+    {0.2, 0.01, false}, {0.0, 1e-6, false}, {0.0, 1e-6, true}, {-2.0, 0.0, true}};
 
 template <int N> class Patch {
   public:
@@ -110,6 +112,7 @@ template <int N> class Patch {
     std::vector<char> near_refused; ///< by vertex: it may have such an edge
     float most = 0;
     std::size_t stage = 0;
+    std::size_t since_retry = 0; ///< collapses since all that was refused was tried again
 };
 
 extern template class Patch<0>;

@@ -45,6 +45,15 @@ bool apart(const std::array<glm::dvec3, 3>& s, const std::array<glm::dvec3, 3>& 
     return false;
 }
 
+glm::dvec3 unit(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec3(0);
+}
+
+glm::dvec3 middle_of(const std::array<glm::dvec3, 2>& angle) {
+    return angle[0] * glm::length(angle[1]) + angle[1] * glm::length(angle[0]);
+}
+
 /// With one: the two other corners of each, relative to it. A point of both would make all points between it
 /// and the common corner common, so that it is enough to part the angles there.
 bool apart(const std::array<glm::dvec3, 2>& s, const std::array<glm::dvec3, 2>& t, const Nearness& nearness) {
@@ -55,6 +64,8 @@ bool apart(const std::array<glm::dvec3, 2>& s, const std::array<glm::dvec3, 2>& 
         return (a.least > far && b.most <= none) || (a.least >= -none && b.most < -far) ||
                (b.least > far && a.most <= none) || (b.least >= -none && a.most < -far);
     };
+    if (parts(unit(middle_of(s)) - unit(middle_of(t))))
+        return true; // angles in one plane whose sides are in line, too
     const glm::dvec3 of_s = cross(s[0], s[1]), of_t = cross(t[0], t[1]);
     if (parts(of_s) || parts(of_t)) return true;
     for (const glm::dvec3& e : s)
