@@ -128,7 +128,15 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
         }
         if (float(to.cost) > most) continue;
         if (keeps_volume) to.point = keep_volume(c, to.point);
-        if (allowed(c, to.point)) {
+        bool fits = allowed(c, to.point);
+        if (!fits && crossed) {
+            fits = evade(c, to);
+            if (fits && !heap.empty() && entry_of(to.cost, e) > heap.front()) {
+                push(e, to.cost);
+                continue;
+            }
+        }
+        if (fits) {
             collapse(c, to, step);
             return true;
         }
@@ -198,10 +206,45 @@ bool Patch<N>::keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec
 }
 
 template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
+    crossed = false;
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
     if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
-    return strictness[stage].may_cross || !crosses(c, to);
+    if (strictness[stage].may_cross) return true;
+    crossed = crosses(c, to);
+    return !crossed;
+}
+
+/// Another place for an edge whose best one would let the surface pass through itself: the cheapest of some.
+template <int N> bool Patch<N>::evade(std::uint32_t c, Placement& to) {
+    const std::uint32_t a = at[c], b = after(c);
+    Quadric<N> sum = quadrics[a];
+    sum += quadrics[b];
+    const PlaneQuadric q = sum.reduced();
+    glm::dvec3 normal(0);
+    for (const std::uint32_t v : {a, b})
+        around(v, [&](std::uint32_t h) {
+            if (at[next(h)] != ghost && at[previous(h)] != ghost)
+                normal += cross(position[at[next(h)]] - position[v], position[at[previous(h)]] - position[v]);
+        });
+    const double size = length(normal), edge_length = length(position[a] - position[b]);
+    if (size > 0) normal *= edge_length / size;
+    const glm::dvec3 middle = (position[a] + position[b]) * 0.5;
+    std::vector<Placement> places;
+    for (const glm::dvec3& p : {position[a], position[b], middle}) places.push_back({p, q.at(p)});
+    for (const double d : {0.05, 0.1, 0.2, 0.4})
+        for (const double sign : {-1, 1}) {
+            const glm::dvec3 p = to.point + normal * (sign * d);
+            places.push_back({p, q.at(p)});
+        }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const auto& x, const auto& y) { return x.cost < y.cost; });
+    for (const Placement& p : places)
+        if (allowed(c, p.point)) {
+            to = {p.point, std::max(to.cost, p.cost)};
+            return true;
+        }
+    return false;
 }
 
 /// Would the surface pass through itself where the edge has become a vertex?
@@ -262,7 +305,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    guard.changed(guarded(), change.replaced);
+    if (!strictness[stage].may_cross) guard.changed(guarded(), change.replaced);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

@@ -87,6 +87,7 @@ template <int N> class Patch {
     bool keeps_manifold(std::uint32_t c);
     bool keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec3& to) const;
     bool allowed(std::uint32_t c, const glm::dvec3& to);
+    bool evade(std::uint32_t c, Placement& to);
     bool crosses(std::uint32_t c, const glm::dvec3& to);
     CrossingGuard::Surface guarded() const {
         return {std::span(position).first(std::min<std::size_t>(ghost, position.size())), at};
@@ -112,6 +113,7 @@ template <int N> class Patch {
     std::vector<char> near_refused; ///< by vertex: it may have such an edge
     float most = 0;
     std::size_t stage = 0;
+    bool crossed = false;        ///< why allowed() last said no
     std::size_t since_retry = 0; ///< collapses since all that was refused was tried again
 };
 
