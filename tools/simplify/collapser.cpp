@@ -50,9 +50,10 @@ template <int N> class RoundsCollapser final : public Collapser {
             result.positions.push_back(left.moved[v] ? cube.outside(left.position[v])
                                                      : mesh.positions[left.id[v]]);
         result.sources = std::move(left.source);
-        std::erase_if(left.triangles, [&](const Triangle& t) {
+        const std::size_t to_ghost = std::erase_if(left.triangles, [&](const Triangle& t) {
             return std::find(t.begin(), t.end(), left.ghost()) != t.end();
         });
+        result.closed = to_ghost == 0;
         result.triangles = std::move(left.triangles);
         result.became.reserve(became.size());
         for (const std::uint32_t v : became) result.became.push_back(of_base[v]);

@@ -22,6 +22,7 @@ class Collapser {
         std::vector<std::uint32_t> sources;
         std::vector<std::uint32_t> became; ///< for every vertex of the original, which one it was merged into
         std::vector<Triangle> triangles;
+        bool closed = true; ///< no boundaries
     };
 
     /// As many as may be left.

@@ -33,6 +33,7 @@ template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
     number_edges();
     mark.assign(position.size(), 0);
     near_refused.assign(position.size(), 0);
+    guard = CrossingGuard(guarded(), ghost == none || out[ghost] == none);
 }
 
 template <int N> void Patch<N>::find_twins() {
@@ -127,7 +128,15 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
         }
         if (float(to.cost) > most) continue;
         if (keeps_volume) to.point = keep_volume(c, to.point);
-        if (allowed(c, to.point)) {
+        bool fits = allowed(c, to.point);
+        if (!fits && crossed) {
+            fits = evade(c, to);
+            if (fits && !heap.empty() && entry_of(to.cost, e) > heap.front()) {
+                push(e, to.cost);
+                continue;
+            }
+        }
+        if (fits) {
             collapse(c, to, step);
             return true;
         }
@@ -197,9 +206,64 @@ bool Patch<N>::keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec
 }
 
 template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
+    crossed = false;
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
-    return stage + 1 == std::size(strictness) || (keeps_shape(a, b, to) && keeps_shape(b, a, to));
+    if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
+    if (strictness[stage].may_cross) return true;
+    crossed = crosses(c, to);
+    return !crossed;
+}
+
+/// Another place for an edge whose best one would let the surface pass through itself: the cheapest of some.
+template <int N> bool Patch<N>::evade(std::uint32_t c, Placement& to) {
+    const std::uint32_t a = at[c], b = after(c);
+    Quadric<N> sum = quadrics[a];
+    sum += quadrics[b];
+    const PlaneQuadric q = sum.reduced();
+    glm::dvec3 normal(0);
+    for (const std::uint32_t v : {a, b})
+        around(v, [&](std::uint32_t h) {
+            if (at[next(h)] != ghost && at[previous(h)] != ghost)
+                normal += cross(position[at[next(h)]] - position[v], position[at[previous(h)]] - position[v]);
+        });
+    const double size = length(normal), edge_length = length(position[a] - position[b]);
+    if (size > 0) normal *= edge_length / size;
+    const glm::dvec3 middle = (position[a] + position[b]) * 0.5;
+    std::vector<Placement> places;
+    for (const glm::dvec3& p : {position[a], position[b], middle}) places.push_back({p, q.at(p)});
+    for (const double d : {0.05, 0.1, 0.2, 0.4})
+        for (const double sign : {-1, 1}) {
+            const glm::dvec3 p = to.point + normal * (sign * d);
+            places.push_back({p, q.at(p)});
+        }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const auto& x, const auto& y) { return x.cost < y.cost; });
+    for (const Placement& p : places)
+        if (allowed(c, p.point)) {
+            to = {p.point, std::max(to.cost, p.cost)};
+            return true;
+        }
+    return false;
+}
+
+/// Would the surface pass through itself where the edge has become a vertex?
+template <int N> bool Patch<N>::crosses(std::uint32_t c, const glm::dvec3& to) {
+    const std::uint32_t removed = at[c], kept = after(c);
+    change.replaced.clear();
+    change.made.clear();
+    change.moved = kept;
+    change.to = to;
+    const auto add = [&](std::uint32_t h, std::uint32_t gone) {
+        const std::uint32_t v = at[next(h)], w = at[previous(h)];
+        change.replaced.push_back(h / 3);
+        if (v != gone && w != gone && v != ghost && w != ghost) change.made.push_back({kept, v, w});
+    };
+    around(removed, [&](std::uint32_t h) { add(h, kept); });
+    around(kept, [&](std::uint32_t h) {
+        if (after(h) != removed && at[previous(h)] != removed) add(h, removed);
+    });
+    return guard.crosses(guarded(), change);
 }
 
 template <int N> void Patch<N>::refuse(std::uint32_t c) {
@@ -230,6 +294,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     }
     const bool at_boundary = at[previous(c)] == ghost || at[previous(back)] == ghost;
     step = {kept, removed, source[kept], float(to.cost), to.point, at_boundary};
+    ++since_retry;
     quadrics[kept] += quadrics[removed];
     position[kept] = to.point;
     std::uint32_t h = c;
@@ -240,6 +305,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
+    if (!strictness[stage].may_cross) guard.changed(guarded(), change.replaced);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);
@@ -261,8 +327,12 @@ template <int N> void Patch<N>::queue_at(std::uint32_t v) {
 }
 
 template <int N> bool Patch<N>::relax() {
-    if (stage + 1 == std::size(strictness)) return false;
-    ++stage;
+    // What was in a collapse's way may have gone with another one.
+    if (since_retry == 0) {
+        if (stage + 1 == std::size(strictness)) return false;
+        ++stage;
+    }
+    since_retry = 0;
     for (std::uint32_t e = 0; e < half.size(); ++e) queue_again(e);
     return true;
 }

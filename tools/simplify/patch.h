@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/mesh/mesh.h"
+#include "tools/simplify/crossing_guard.h"
 #include "tools/simplify/quadric.h"
 
 namespace glcast {
@@ -31,8 +32,10 @@ struct Step {
 struct Strictness {
     double min_cosine;  ///< between a triangle's normal before and after
     double min_quality; ///< 1 is equilateral, 0 degenerate; what was worse already may stay as bad
+    bool may_cross;     ///< the surface may pass through itself
 };
-constexpr Strictness strictness[] = {{0.2, 0.01}, {0.0, 1e-6}, {-2.0, 0.0}};
+constexpr Strictness strictness[] = {
+    {0.2, 0.01, false}, {0.0, 1e-6, false}, {0.0, 1e-6, true}, {-2.0, 0.0, true}};
 
 template <int N> class Patch {
   public:
@@ -41,7 +44,7 @@ template <int N> class Patch {
     std::vector<std::uint32_t> source;
     std::vector<char> locked;
     std::vector<Quadric<N>> quadrics;
-    std::uint32_t ghost = none; ///< the vertex at infinity
+    std::uint32_t ghost = none; ///< the vertex at infinity, the last
     bool keeps_volume = true;   ///< collapses keep the body's volume
 
     /// Once the above are filled: `corners` names three vertices a triangle.
@@ -84,6 +87,11 @@ template <int N> class Patch {
     bool keeps_manifold(std::uint32_t c);
     bool keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec3& to) const;
     bool allowed(std::uint32_t c, const glm::dvec3& to);
+    bool evade(std::uint32_t c, Placement& to);
+    bool crosses(std::uint32_t c, const glm::dvec3& to);
+    CrossingGuard::Surface guarded() const {
+        return {std::span(position).first(std::min<std::size_t>(ghost, position.size())), at};
+    }
     void refuse(std::uint32_t c);
     void remove_triangle(std::uint32_t c);
     void collapse(std::uint32_t c, const Placement& to, Step& step);
@@ -94,6 +102,8 @@ template <int N> class Patch {
     std::vector<std::uint32_t> out;            ///< by vertex: a half-edge out of it
     std::vector<std::uint32_t> mark;           ///< by vertex: for the link condition
     std::uint32_t marks = 0;
+    CrossingGuard guard;
+    SurfaceChange change;            ///< the last that the guard was asked about
     std::vector<std::uint32_t> half; ///< by edge: one of its half-edges, none when it is gone
     /// Every edge that lives and costs no more than `most` is here, once, or refused. Costs only grow as
     /// quadrics are added up, so a cost that is out of date is a lower bound: it is enough to take it anew
@@ -103,6 +113,8 @@ template <int N> class Patch {
     std::vector<char> near_refused; ///< by vertex: it may have such an edge
     float most = 0;
     std::size_t stage = 0;
+    bool crossed = false;        ///< why allowed() last said no
+    std::size_t since_retry = 0; ///< collapses since all that was refused was tried again
 };
 
 extern template class Patch<0>;

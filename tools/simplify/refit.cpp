@@ -13,6 +13,7 @@
 
 #include "tools/mesh/point_triangle.h"
 #include "tools/simplify/attributes.h"
+#include "tools/simplify/crossing_guard.h"
 
 namespace glcast {
 namespace {
@@ -97,9 +98,9 @@ struct Place {
 
 class Fit {
   public:
-    Fit(Mesh& level, std::vector<Sample>&& points)
+    Fit(Mesh& level, bool closed, std::vector<Sample>&& points)
         : mesh(level), walk(std::make_unique<SurfaceWalk>(level)), samples(std::move(points)),
-          places(samples.size()) {}
+          places(samples.size()), guard(surface(), closed) {}
 
     /// Lay every sample on the mesh; the sum of their squared distances.
     double lay() {
@@ -111,8 +112,11 @@ class Fit {
 
     void move_vertices() {
         gather();
+        std::vector<glm::dvec3> wanted = mesh.positions;
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) move(v);
+        wanted.swap(mesh.positions);
+        move_to(wanted);
     }
 
     /// Each vertex takes part in one swap at most, so that none undoes what another looked at.
@@ -128,8 +132,11 @@ class Fit {
                 const auto& [left, right, a, b, c, d] = *diamond;
                 if (touched[a] || touched[b] || touched[c] || touched[d]) continue;
                 if (!better_swapped(*diamond, laid[left], laid[right])) continue;
-                mesh.triangles[left] = {a, d, c};
-                mesh.triangles[right] = {d, b, c};
+                const SurfaceChange change{{left, right}, {{a, d, c}, {d, b, c}}};
+                if (guard.crosses(surface(), change)) continue;
+                mesh.triangles[left] = change.made[0];
+                mesh.triangles[right] = change.made[1];
+                guard.changed(surface(), change.replaced);
                 touched[a] = touched[b] = touched[c] = touched[d] = any = true;
                 break;
             }
@@ -222,6 +229,36 @@ class Fit {
             }
     }
 
+    /// One vertex after the other, so that the surface never passes through itself; who is in another's way
+    /// waits until that one has moved, and at last goes half the way, or none.
+    void move_to(const std::vector<glm::dvec3>& wanted) {
+        std::vector<std::uint32_t> waiting, still;
+        for (std::uint32_t v = 0; v < wanted.size(); ++v)
+            if (wanted[v] != mesh.positions[v]) waiting.push_back(v);
+        for (const double share : {1.0, 1.0, 0.5}) {
+            still.clear();
+            for (const std::uint32_t v : waiting)
+                if (!move_guarded(v, mesh.positions[v] + share * (wanted[v] - mesh.positions[v])))
+                    still.push_back(v);
+            waiting.swap(still);
+        }
+    }
+
+    bool move_guarded(std::uint32_t v, const glm::dvec3& to) {
+        const auto around = walk->around(v);
+        SurfaceChange change{{around.begin(), around.end()}, {}, v, to};
+        for (const std::uint32_t t : change.replaced) change.made.push_back(mesh.triangles[t]);
+        if (guard.crosses(surface(), change)) return false;
+        mesh.positions[v] = to;
+        guard.changed(surface(), change.replaced);
+        return true;
+    }
+
+    CrossingGuard::Surface surface() const {
+        return {mesh.positions,
+                {mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(), 3 * mesh.triangles.size()}};
+    }
+
     bool keeps_shape(std::uint32_t v, const glm::dvec3& to) const {
         for (const std::uint32_t triangle : walk->around(v)) {
             const Triangle& t = mesh.triangles[triangle];
@@ -298,6 +335,7 @@ class Fit {
     std::vector<Place> places;
     std::vector<std::uint32_t> first; ///< per vertex, where its pulls begin; one more at the end
     std::vector<Pull> pulls;
+    CrossingGuard guard;
 };
 
 } // namespace
@@ -311,7 +349,7 @@ void refit(Collapser::Remainder& remainder, const Mesh& surface) {
     level.triangles = remainder.triangles;
     std::vector<Sample> samples = spread(surface, remainder.became, count);
     if (samples.empty()) return;
-    Fit fit(level, std::move(samples));
+    Fit fit(level, remainder.closed, std::move(samples));
     const std::size_t rounds = std::min(most_rounds, most_walks / count);
     double least = infinity; // what a round makes of it may be worse: the best is kept
     for (std::size_t round = 0, idle = 0;; ++round) {
