@@ -69,8 +69,9 @@ template <class Work> void guarded(Work&& work) noexcept {
 }
 
 void announce(Session& s, const NativeContext& context) {
+    Clock::time_point never{};
+    s.start.compare_exchange_strong(never, Clock::now()); // before any other thread asks how late it is
     if (s.hooked.exchange(true)) return;
-    s.start = Clock::now();
     say("hooked %s in %s", context.system->name(), program_name().c_str());
     tell("hooked", context.system->name());
     s.triggers.look_for_signals();
@@ -129,7 +130,7 @@ Ended frames_of(const Session& s, const NativeContext& context, std::uintptr_t d
 }
 
 bool is_late_enough(const Session& s) {
-    return std::chrono::duration<double>(Clock::now() - s.start).count() >= s.options.after_seconds;
+    return std::chrono::duration<double>(Clock::now() - s.start.load()).count() >= s.options.after_seconds;
 }
 
 bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
@@ -154,6 +155,7 @@ void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable
         return refuse(s, why);
     }
     record::begin_frame(*context.shadow);
+    const std::lock_guard lock(s.mutex); // other threads look at what is recorded
     context.recording = true;
     context.recorded_drawable = drawable;
 }

@@ -47,7 +47,7 @@ struct Session {
     std::atomic<bool> told_looks{false}; ///< other windows may still show something better
     std::atomic<bool> holding{false};    ///< something is captured or listed, and not yet the last word
     std::atomic<long> frames{0};
-    Clock::time_point start{}; ///< of GL: when the first context was made current
+    std::atomic<Clock::time_point> start{}; ///< of GL: when the first context was made current
 
     bool is_ours() const { return getpid() == pid; }
 };
