@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "capture/capture_file.h"
@@ -30,9 +31,9 @@ constexpr double far_ratios[] = {100, 3'000, 1e6};
 
 /// Contexts of ours current with the program's drawables, and the program's own again at the end.
 ///
-/// No sibling outlives its frame: what it holds the program may delete before the next one, and what it has pushed
-/// comes back when it is popped, into textures that contexts share. A driver may also let an object that has lost
-/// its name point at a context that is gone (Mesa's sampler views).
+/// A sibling that has drawn does not outlive its frame: a driver may let an object that has lost its name meanwhile
+/// point at a context that is gone (Mesa's sampler views). One that has not is kept for the next frame, if it holds
+/// nothing of the program's.
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
@@ -44,7 +45,10 @@ class SiblingScope {
     }
     ~SiblingScope() {
         if (!system.bind(program)) say_once("the program's context could not be made current again");
-        for (const auto& [context, sibling] : made) context->system->destroy(context->display, sibling);
+        if (are_kept) return;
+        for (NativeContext* context : had)
+            if (void* sibling = context->sibling.exchange(nullptr))
+                context->system->destroy(context->display, sibling);
     }
     SiblingScope(const SiblingScope&) = delete;
     SiblingScope& operator=(const SiblingScope&) = delete;
@@ -52,7 +56,7 @@ class SiblingScope {
     /// A sibling of `part`'s context. Its own drawable may not fit the one that is current, which may not fit
     /// its configuration; framebuffer objects need none.
     void enter(const FramePart& part) {
-        const NativeContext& context = *part.context;
+        NativeContext& context = *part.context;
         if (entered == &context) return;
         entered = nullptr;
         Binding binding{context.display, program.draw, program.read, sibling_of(context)};
@@ -67,19 +71,21 @@ class SiblingScope {
         entered = &context;
     }
 
+    /// They have drawn nothing, and hold nothing.
+    void keep() { are_kept = true; }
+
   private:
-    void* sibling_of(const NativeContext& context) {
-        if (const auto found = made.find(&context); found != made.end()) return found->second;
-        void*& sibling = made[&context];
-        sibling = context.make_sibling();
-        if (sibling) return sibling;
-        made.erase(&context);
-        throw std::runtime_error("no second context can be made beside the program's");
+    void* sibling_of(NativeContext& context) {
+        if (!context.sibling) context.sibling = context.make_sibling();
+        if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
+        had.insert(&context);
+        return context.sibling;
     }
 
     const WindowSystem& system;
     Binding program;
-    std::map<const NativeContext*, void*> made;
+    std::set<NativeContext*> had;
+    bool are_kept = false;
     const NativeContext* entered = nullptr;
 };
 
@@ -142,11 +148,13 @@ class Cast {
     /// Textures that replays have made lie in the program's share group.
     ~Cast() {
         try {
-            for (const FramePart& part : parts)
-                if (record::has_copies(*part.frame)) {
-                    siblings.enter(part);
-                    record::delete_copies(*part.frame, gl);
-                }
+            for (const FramePart& part : parts) {
+                const bool has_copies = record::has_copies(*part.frame);
+                if (has_copies || has_only_looked) siblings.enter(part);
+                if (has_copies) record::delete_copies(*part.frame, gl);
+                if (has_only_looked) record::let_go(*part.frame, gl);
+            }
+            if (has_only_looked) siblings.keep();
         } catch (const std::exception&) {
             say_once("copies of textures could not be deleted");
         }
@@ -155,6 +163,13 @@ class Cast {
     Cast& operator=(const Cast&) = delete;
 
     CastResult run(std::vector<Candidate>& listed) {
+        CastResult result = look_and_cast(listed);
+        has_only_looked = result.outcome == CastOutcome::nothing_solid && !has_drawn;
+        return result;
+    }
+
+  private:
+    CastResult look_and_cast(std::vector<Candidate>& listed) {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
             siblings.enter(part);
@@ -180,7 +195,6 @@ class Cast {
         return result;
     }
 
-  private:
     const std::vector<FramePart>& parts;
     const long number;
     const Options& options;
@@ -189,6 +203,7 @@ class Cast {
     SiblingScope siblings;
     std::vector<Scene> scenes;
     std::vector<Candidate> candidates;
+    bool has_drawn = false, has_only_looked = false;
 
     /// Asked of GL itself: glvnd has the entry points in any case.
     bool draws_into_framebuffers() {
@@ -211,6 +226,7 @@ class Cast {
     }
 
     Thumbnail picture_of(const Candidate& candidate) {
+        has_drawn = true;
         enter_for(candidate);
         constexpr int size = 192;
         const Group& group = candidate.group;
@@ -276,6 +292,7 @@ class Cast {
     }
 
     CastResult cast(const Candidate& candidate) {
+        has_drawn = true;
         enter_for(candidate);
         const Group& group = candidate.group;
         EngineOptions engine;

@@ -303,13 +303,18 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
 
 void context_destroyed(void* handle) noexcept {
     guarded([&](Session& s) {
-        const std::lock_guard lock(s.mutex);
-        NativeContext* context = find_context(s, handle);
-        if (!context) return;
-        context->destroyed = true;
-        if (context->threads == 0) close_recording(s, *context);
-        std::erase_if(s.parts, [&](const FramePart& part) { return part.context.get() == context; });
-        forget_if_unused(s, context);
+        std::shared_ptr<NativeContext> context;
+        {
+            const std::lock_guard lock(s.mutex);
+            const auto at = s.contexts.find(handle);
+            if (at == s.contexts.end()) return;
+            context = at->second;
+            context->destroyed = true;
+            if (context->threads == 0) close_recording(s, *context);
+            std::erase_if(s.parts, [&](const FramePart& part) { return part.context == context; });
+            forget_if_unused(s, context.get());
+        }
+        if (void* sibling = context->sibling.exchange(nullptr)) context->system->destroy(context->display, sibling);
     });
 }
 

@@ -21,6 +21,7 @@ struct NativeContext {
     std::function<void*()>
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
     std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
+    std::atomic<void*> sibling{nullptr}; ///< made when first needed, ours to destroy
     // Changed by the thread on which it is current, where there is one, and with the session's mutex held.
     bool recording = false;
     std::uintptr_t recorded_drawable = 0;

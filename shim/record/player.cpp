@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shim/record/snapshot.h"
 #include "shim/record/state.h"
 
 namespace glcast::record {
@@ -40,6 +41,13 @@ void Player::call_list(GLuint name) {
 namespace {
 constexpr GLint deepest = 256; // no GL has deeper stacks; guards against a table that answers nonsense
 
+/// Counts before it pops, as the loop over matrices does: `gl` may swallow the pops of a stack that it keeps for
+/// itself.
+void pop_attributes(const GlTable& gl) {
+    const GLint attribs = std::min(get_int(gl, GL_ATTRIB_STACK_DEPTH), deepest);
+    for (GLint i = 0; i < attribs; ++i) gl.PopAttrib();
+}
+
 void select_unit(const GlTable& gl, const Frame& frame, int stack) {
     const int unit = stack - int(Stack::texture0);
     if (unit >= 0 && frame.has_multitexture) gl.ActiveTexture(GLenum(GL_TEXTURE0 + unit));
@@ -64,9 +72,7 @@ void Player::reset_client_state() {
 }
 
 void Player::empty_stacks() {
-    // Each loop counts before it pops: `gl` may swallow the pops of a stack that it keeps for itself.
-    const GLint attribs = std::min(get_int(gl, GL_ATTRIB_STACK_DEPTH), deepest);
-    for (GLint i = 0; i < attribs; ++i) gl.PopAttrib();
+    pop_attributes(gl);
     for (int stack = 0; stack < stack_count; ++stack) {
         if (frame.stacks[stack].empty()) continue;
         select_unit(gl, frame, stack);
@@ -101,6 +107,21 @@ void Player::pop_attrib() {
     if (top.mask & GL_ENABLE_BIT) state.skip = (state.skip & ~programs) | (top.state.skip & programs);
     if (top.mask & GL_LIST_BIT) state.list_base = top.state.list_base;
     saved.pop_back();
+}
+
+void let_go(const Frame& frame, const GlTable& gl) {
+    pop_attributes(gl);
+    const GLenum most = frame.version >= 20 ? GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS : GL_MAX_TEXTURE_UNITS;
+    const int units = frame.has_multitexture ? get_int(gl, most, 1) : 1;
+    for (int unit = 0; unit < units; ++unit) {
+        if (frame.has_multitexture) gl.ActiveTexture(GLenum(GL_TEXTURE0 + unit));
+        for (const GLenum target :
+             {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE})
+            if (get_int(gl, texture_binding(target))) gl.BindTexture(target, 0);
+    }
+    if (frame.has_multitexture) gl.ActiveTexture(GL_TEXTURE0);
+    for (int i = 0; i < 8 && gl.GetError() != GL_NO_ERROR; ++i) {
+    } // not every version has every target
 }
 
 void replay(const Frame& frame, const GlTable& gl, const std::function<void()>& before_calls) {

@@ -69,6 +69,11 @@ void note_opaque_lists(Context& context, GLuint first, GLsizei count);
 bool has_copies(const Frame& frame);
 void delete_copies(const Frame& frame, const GlTable& gl);
 
+/// Lets go of the program's objects that a context of ours, which may live on, still holds after replays of the frame:
+/// of textures in its bindings and on its stack of attributes. These would come back at the next replay, to which
+/// the program may have changed them, and contexts share what comes back: parameters of textures.
+void let_go(const Frame& frame, const GlTable& gl);
+
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
 /// and attribute stacks of the context are emptied first, so it can be called again and again. `gl` may be an
