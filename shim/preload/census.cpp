@@ -61,10 +61,10 @@ std::string advice(const Census& seen) {
     if (seen.foreign_frames > 0 && seen.foreign_frames == seen.frames)
         return "it draws with OpenGL ES, which has no fixed functions: only fixed-function drawing of desktop OpenGL can "
                "be cast";
-    const std::string more = strokes(seen);
+    const std::string more = strokes(seen), kinds = seen.lines > 0 && seen.points > 0 ? "lines and points" : more;
     if (seen.shaders > 0)
         return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast" +
-               (more.empty() ? "" : "; --include " + more + " casts its " + more);
+               (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!seen.refused.empty()) return {};
     if (!more.empty()) return "--include " + more + " casts these";
     if (seen.solid > 0) return "--box can say where to look";

@@ -28,7 +28,10 @@ void add(Group& all, const Group& one) {
     all.lines += one.lines;
     all.points += one.points;
     all.writes_depth |= one.writes_depth;
-    if (!all.base_modelview) all.base_modelview = one.base_modelview;
+    if (!all.base_modelview || (all.base_is_stencilled && one.base_modelview && !one.base_is_stencilled)) {
+        all.base_modelview = one.base_modelview;
+        all.base_is_stencilled = one.base_is_stencilled;
+    }
 }
 
 long area(const Group& group) { return long(group.viewport[2]) * group.viewport[3]; }
@@ -47,6 +50,23 @@ void find_insets(std::vector<Candidate>& candidates, const Include& include) {
             c.inset |= smaller && (in_corner || !richer);
         }
     }
+}
+
+/// Of several framebuffers with a scene, none of them the window's, the one that was drawn to last, be it by what lies
+/// over the scene. What went before helped to draw it (shadow and reflection maps, the numbers that OpenCSG marks its
+/// bodies with, the colours by which dreamchess finds what the pointer is on).
+template <class IsScene> GLuint shown_framebuffer(const std::vector<Candidate>& candidates, const IsScene& is_scene) {
+    GLuint shown = 0;
+    long last = -1;
+    for (const Candidate& c : candidates) {
+        const auto shares = [&](const Candidate& o) {
+            return o.group.framebuffer == c.group.framebuffer && is_scene(o);
+        };
+        if (c.group.last_draw <= last || std::none_of(candidates.begin(), candidates.end(), shares)) continue;
+        last = c.group.last_draw;
+        shown = c.group.framebuffer;
+    }
+    return shown;
 }
 
 } // namespace
@@ -110,16 +130,9 @@ void rank(std::vector<Candidate>& candidates, const Include& include, bool pictu
     long richest = 0;
     for (const Candidate& c : candidates)
         if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
-    // Of several framebuffers, none of them the window's, the one that was drawn to last is shown: what went before
-    // helped to draw it (shadow and reflection maps, the numbers that OpenCSG marks its bodies with).
-    GLuint shown = 0;
-    long last = -1;
-    for (const Candidate& c : candidates) {
-        const bool serious = helper_richness * substance(c.group, include) >= richest;
-        if (in_front(c) != in_front(*best) || !serious || c.group.last_draw <= last) continue;
-        last = c.group.last_draw;
-        shown = c.group.framebuffer;
-    }
+    const GLuint shown = shown_framebuffer(candidates, [&](const Candidate& c) {
+        return in_front(c) == in_front(*best) && helper_richness * substance(c.group, include) >= richest;
+    });
     const auto key = [&](const Candidate& c) {
         const long solid = substance(c.group, include);
         const bool helps = shown != 0 && c.group.framebuffer != 0 && c.group.framebuffer != shown;

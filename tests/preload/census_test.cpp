@@ -32,6 +32,8 @@ TEST(Census, ShadersDoNotHideThatTheRestCanBeCast) {
     EXPECT_THAT(explain(seen), Not(HasSubstr("--include")));
     seen.points = 40000;
     EXPECT_THAT(explain(seen), HasSubstr("--include points casts its points"));
+    seen.lines = 8;
+    EXPECT_THAT(explain(seen), HasSubstr("--include lines,points casts its lines and points"));
 }
 
 TEST(Census, NothingDrawnLeadsToNudge) { EXPECT_THAT(explain(some_frames()), HasSubstr("--nudge")); }

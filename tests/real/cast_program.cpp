@@ -36,6 +36,7 @@ bool step(const std::vector<std::string>& command, double limit, std::string& er
 std::vector<std::string> capture_command(const RealProgram& program, const fs::path& capture) {
     std::vector<std::string> command = {GLCAST_RUN, "--headless", "--quit", "-n", std::to_string(program.n),
                                         "-o",       capture};
+    command.insert(command.end(), program.options.begin(), program.options.end());
     command.push_back("--");
     command.insert(command.end(), program.command.begin(), program.command.end());
     return command;

@@ -15,6 +15,7 @@ struct RealProgram {
     int n = 256;
     std::vector<std::pair<std::string, std::string>> environment = {};
     bool levels = true; ///< false: the full surface only
+    std::vector<std::string> options = {}; ///< more of glcast-run's
 };
 
 struct Cast {

@@ -127,6 +127,15 @@ TEST_F(GlcastRun, RefusesSetuidPrograms) {
     expect_refused({"-o", capture(), program, "--"}, 1, "setuid");
 }
 
+TEST_F(GlcastRun, SaysThatAScriptStartedWhatCannotBeCast) {
+    const CommandResult result = run({"--quit", "--timeout", "0.5", "-o", capture(), "--", "sh", "-c",
+                                      std::string(STATIC_PROGRAM) + " wait; true"},
+                                     "", "toy_static");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("no GL seen: gave up after 0.5 s; "));
+    EXPECT_THAT(result.err, HasSubstr("linked statically"));
+}
+
 TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
     const CommandResult result =
         run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;casting 3;captured 3 " + capture());

@@ -116,6 +116,16 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
     }
 }
 
+/// Why a program that was started by another, by a shell script say, may not have the library in it.
+std::string find_obstacle(const Program& program) {
+    for (const fs::path& file : program.running()) {
+        if (const std::string trouble = check_program(file); !trouble.empty()) {
+            return "; " + trouble;
+        }
+    }
+    return {};
+}
+
 int report(const Options& options, const Seen& seen, const std::string& ending) {
     if (options.list && seen.listed) {
         for (const std::string& group : seen.groups) {
@@ -166,7 +176,10 @@ int run(const Options& options) {
     Seen seen;
     std::optional<int> result;
     const auto finished = [&] { result = report(options, seen, ""); };
-    const std::string ending = wait_for_cast(options, program, pipe, signals, seen, finished);
+    std::string ending = wait_for_cast(options, program, pipe, signals, seen, finished);
+    if (seen.api.empty()) {
+        ending += find_obstacle(program);
+    }
     program.end(end_grace_ms);
     pipe.read_into(seen); // a capture that was finished while the program was being ended counts
     return result ? *result : report(options, seen, ending);

@@ -132,6 +132,28 @@ void Program::reap() {
     }
 }
 
+std::vector<std::filesystem::path> Program::running() const {
+    std::vector<std::filesystem::path> files;
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", gone)) {
+        const pid_t pid = std::atoi(entry.path().filename().c_str());
+        if (pid <= 0 || getpgid(pid) != leader) {
+            continue;
+        }
+        std::error_code hidden;
+        std::filesystem::path file = std::filesystem::read_symlink(entry.path() / "exe", hidden);
+        if (hidden) {
+            std::string called;
+            std::getline(std::ifstream(entry.path() / "cmdline"), called, '\0');
+            file = called;
+        }
+        if (file.is_absolute() && std::find(files.begin(), files.end(), file) == files.end()) {
+            files.push_back(file);
+        }
+    }
+    return files;
+}
+
 bool Program::alive() const { return leader > 0 && kill(-leader, 0) == 0; }
 
 void Program::signal(int number) const {

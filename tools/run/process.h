@@ -2,6 +2,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,8 @@ class Program {
     void spare(pid_t pid) { spared = pid; } ///< a child of ours that is not the program's
     bool alive() const;                     ///< any process of its group, also when the first one has gone
     void signal(int number) const;          ///< to the whole group
+    /// Files that processes of its group run now, each once; of those that we may not look into, as they were called.
+    std::vector<std::filesystem::path> running() const;
     /// SIGTERM to the group, SIGKILL to what is left after the grace. Safe to call again.
     void end(int grace_ms);
 
