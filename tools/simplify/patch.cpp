@@ -232,11 +232,13 @@ template <int N> bool Patch<N>::evade(std::uint32_t c, Placement& to) {
     const glm::dvec3 middle = (position[a] + position[b]) * 0.5;
     std::vector<Placement> places;
     for (const glm::dvec3& p : {position[a], position[b], middle}) places.push_back({p, q.at(p)});
-    for (const double d : {0.05, 0.1, 0.2, 0.4})
-        for (const double sign : {-1, 1}) {
-            const glm::dvec3 p = to.point + normal * (sign * d);
-            places.push_back({p, q.at(p)});
-        }
+    const glm::dvec3 best = to.point;
+    for (const double d : {0.02, 0.05, 0.1, 0.2, 0.4})
+        for (const double sign : {-1, 1})
+            for (const glm::dvec3& base : {best, middle, position[a], position[b]}) {
+                const glm::dvec3 p = base + normal * (sign * d);
+                places.push_back({p, q.at(p)});
+            }
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& x, const auto& y) { return x.cost < y.cost; });
     for (const Placement& p : places)
