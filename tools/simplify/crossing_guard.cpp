@@ -74,6 +74,9 @@ void CrossingGuard::build(const Surface& surface) {
     for (std::uint32_t t = 0; t < triangle_mark.size(); ++t)
         if (lives(surface, t)) items.push_back(item_of(surface, t));
     live = built = items.size();
+    late.clear();
+    is_late.assign(triangle_mark.size(), 0);
+    if (is_closed) grid = FacingGrid(items);
     tree = BoxTree(std::move(items), triangle_mark.size());
 }
 
@@ -92,13 +95,24 @@ BoxTree::Item CrossingGuard::item_of(const Surface& surface, std::uint32_t t) co
 void CrossingGuard::changed(const Surface& surface, std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
         if (lives(surface, t)) {
-            tree.change(item_of(surface, t));
-        } else if (tree.holds(t)) {
-            tree.change({{}, glm::vec3(0), t});
+            const BoxTree::Item item = item_of(surface, t);
+            if (is_closed) grid.add(item.box, facing(item.normal));
+        } else {
             --live;
         }
+        if (!is_late[t]) late.push_back(t);
+        is_late[t] = 1;
     }
     if (built > never_worn_out && double(live) < worn_out * double(built)) build(surface);
+}
+
+void CrossingGuard::bring_up_to_date(const Surface& surface) {
+    for (const std::uint32_t t : late) {
+        if (tree.holds(t))
+            tree.change(lives(surface, t) ? item_of(surface, t) : BoxTree::Item{{}, glm::vec3(0), t});
+        is_late[t] = 0;
+    }
+    late.clear();
 }
 
 std::optional<glm::dvec3> CrossingGuard::take_made(const Surface& surface, const SurfaceChange& change) {
@@ -162,6 +176,12 @@ bool CrossingGuard::crosses(const Surface& surface, const SurfaceChange& change)
     for (const Made& triangle : made) box.add(triangle.box);
     for (const std::uint32_t t : change.replaced)
         if (lives(surface, t)) box.add(box_of(facet_of(surface, corners_of(surface, t)).at));
+    if (is_closed && direction) {
+        Facing faced = ~Facing(0);
+        for (const Made& triangle : made) faced &= facing(glm::vec3(triangle.normal));
+        if (grid.common(box, faced)) return false;
+    }
+    bring_up_to_date(surface);
     mark(surface, change);
     others.clear();
     bool one_way = is_closed && direction;

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "tools/simplify/box_tree.h"
+#include "tools/simplify/facing_grid.h"
 #include "tools/simplify/separation.h"
 
 namespace glcast {
@@ -66,6 +67,7 @@ class CrossingGuard {
     /// The direction that all made triangles face, if there is one.
     std::optional<glm::dvec3> take_made(const Surface& surface, const SurfaceChange& change);
     Slab slab_of(const Surface& surface, const SurfaceChange& change, const glm::dvec3& direction) const;
+    void bring_up_to_date(const Surface& surface);
     void mark(const Surface& surface, const SurfaceChange& change);
     bool meets(const Surface& surface, const SurfaceChange& change, const BoxTree::Item& other) const;
     bool meet_each_other(const Surface& surface, const SurfaceChange& change) const;
@@ -73,7 +75,10 @@ class CrossingGuard {
     bool is_closed = false;
     glm::dvec3 middle{0}; ///< boxes are relative to it
     Nearness nearness;
+    FacingGrid grid;
     BoxTree tree;
+    std::vector<std::uint32_t> late; ///< triangles that have changed, but not in the tree
+    std::vector<char> is_late;       ///< by triangle
     std::size_t live = 0, built = 0; ///< triangles now, and when the tree was made
 
     std::vector<std::uint32_t> triangle_mark, vertex_mark; ///< `marks`: replaced, a corner of what is made
