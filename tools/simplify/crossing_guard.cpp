@@ -75,8 +75,8 @@ void CrossingGuard::build(const Surface& surface) {
         if (lives(surface, t)) items.push_back(item_of(surface, t));
     live = built = items.size();
     late.clear();
-    is_late.assign(triangle_mark.size(), 0);
-    if (is_closed) grid = FacingGrid(items);
+    grid = FacingGrid(items);
+    first_late.assign(grid.count(), UINT32_MAX);
     tree = BoxTree(std::move(items), triangle_mark.size());
 }
 
@@ -94,25 +94,27 @@ BoxTree::Item CrossingGuard::item_of(const Surface& surface, std::uint32_t t) co
 
 void CrossingGuard::changed(const Surface& surface, std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
-        if (lives(surface, t)) {
-            const BoxTree::Item item = item_of(surface, t);
-            if (is_closed) grid.add(item.box, facing(item.normal));
-        } else {
+        if (!lives(surface, t)) {
             --live;
+            continue;
         }
-        if (!is_late[t]) late.push_back(t);
-        is_late[t] = 1;
+        const BoxTree::Item item = item_of(surface, t);
+        grid.add(item.box, facing(item.normal));
+        grid.each(item.box, [&](std::size_t cell) {
+            late.push_back({t, first_late[cell]});
+            first_late[cell] = std::uint32_t(late.size() - 1);
+        });
     }
     if (built > never_worn_out && double(live) < worn_out * double(built)) build(surface);
 }
 
-void CrossingGuard::bring_up_to_date(const Surface& surface) {
-    for (const std::uint32_t t : late) {
-        if (tree.holds(t))
-            tree.change(lives(surface, t) ? item_of(surface, t) : BoxTree::Item{{}, glm::vec3(0), t});
-        is_late[t] = 0;
-    }
-    late.clear();
+/// The tree, as far as the box reaches; what is gone stays in it.
+void CrossingGuard::bring_up_to_date(const Surface& surface, const FloatBox& box) {
+    grid.each(box, [&](std::size_t cell) {
+        for (std::uint32_t k = first_late[cell]; k != UINT32_MAX; k = late[k].next)
+            if (lives(surface, late[k].triangle)) tree.change(item_of(surface, late[k].triangle));
+        first_late[cell] = UINT32_MAX;
+    });
 }
 
 std::optional<glm::dvec3> CrossingGuard::take_made(const Surface& surface, const SurfaceChange& change) {
@@ -141,11 +143,25 @@ void CrossingGuard::mark(const Surface& surface, const SurfaceChange& change) {
     }
 }
 
+/// Is it all on one side of the triangle's plane, but for corners that they share?
+bool CrossingGuard::beyond(const Made& triangle, const Facet& other) const {
+    const Triangle& own = triangle.facet.corners;
+    bool above = true, below = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (other.corners[k] == own[0] || other.corners[k] == own[1] || other.corners[k] == own[2]) continue;
+        const double height = dot(triangle.normal, other.at[k] - triangle.facet.at[0]);
+        above &= height > nearness.distance;
+        below &= height < -nearness.distance;
+    }
+    return above != below;
+}
+
 bool CrossingGuard::meets(const Surface& surface, const SurfaceChange& change,
                           const BoxTree::Item& other) const {
     const Facet facet = facet_of(surface, corners_of(surface, other.triangle));
     for (const Made& triangle : made)
-        if (triangle.box.overlaps(other.box) && !are_apart(triangle.facet, facet, nearness))
+        if (triangle.box.overlaps(other.box) && !beyond(triangle, facet) &&
+            !are_apart(triangle.facet, facet, nearness))
             return !crossed(surface, change, facet.corners);
     return false;
 }
@@ -181,13 +197,14 @@ bool CrossingGuard::crosses(const Surface& surface, const SurfaceChange& change)
         for (const Made& triangle : made) faced &= facing(glm::vec3(triangle.normal));
         if (grid.common(box, faced)) return false;
     }
-    bring_up_to_date(surface);
+    bring_up_to_date(surface, box);
     mark(surface, change);
     others.clear();
     bool one_way = is_closed && direction;
     const glm::vec3 towards(direction.value_or(glm::dvec3(0)));
     const Slab slab = one_way ? slab_of(surface, change, *direction) : Slab{};
     tree.overlapping(box, [&](const BoxTree::Item& item) {
+        if (!lives(surface, item.triangle)) return;
         if (one_way && dot(item.normal, towards) <= float(least_cosine)) {
             Slab of_item;
             for (const std::uint32_t v : corners_of(surface, item.triangle))

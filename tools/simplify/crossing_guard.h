@@ -38,6 +38,9 @@ class CrossingGuard {
     /// `closed`: without boundaries.
     CrossingGuard(const Surface& surface, bool closed);
 
+    /// From now on look at the surface as it is; spares work after many changes.
+    void build(const Surface& surface);
+
     /// Would a triangle that is made cross another one, or come nearer to it than positions change when they
     /// are rounded to floats, or lie folded on a neighbour? What a replaced triangle crossed already does not
     /// count.
@@ -60,15 +63,15 @@ class CrossingGuard {
         bool clear_of(const Slab& o, double by) const { return low > o.high + by || high < o.low - by; }
     };
 
-    void build(const Surface& surface);
     bool lives(const Surface& surface, std::uint32_t t) const;
     FloatBox box_of(const std::array<glm::dvec3, 3>& at) const;
     BoxTree::Item item_of(const Surface& surface, std::uint32_t t) const;
     /// The direction that all made triangles face, if there is one.
     std::optional<glm::dvec3> take_made(const Surface& surface, const SurfaceChange& change);
     Slab slab_of(const Surface& surface, const SurfaceChange& change, const glm::dvec3& direction) const;
-    void bring_up_to_date(const Surface& surface);
+    void bring_up_to_date(const Surface& surface, const FloatBox& box);
     void mark(const Surface& surface, const SurfaceChange& change);
+    bool beyond(const Made& triangle, const Facet& other) const;
     bool meets(const Surface& surface, const SurfaceChange& change, const BoxTree::Item& other) const;
     bool meet_each_other(const Surface& surface, const SurfaceChange& change) const;
 
@@ -77,9 +80,13 @@ class CrossingGuard {
     Nearness nearness;
     FacingGrid grid;
     BoxTree tree;
-    std::vector<std::uint32_t> late; ///< triangles that have changed, but not in the tree
-    std::vector<char> is_late;       ///< by triangle
-    std::size_t live = 0, built = 0; ///< triangles now, and when the tree was made
+    /// Triangles that have changed, but not in the tree: a list for each cell that they touch.
+    struct Late {
+        std::uint32_t triangle, next;
+    };
+    std::vector<Late> late;
+    std::vector<std::uint32_t> first_late; ///< by cell
+    std::size_t live = 0, built = 0;       ///< triangles now, and when the tree was made
 
     std::vector<std::uint32_t> triangle_mark, vertex_mark; ///< `marks`: replaced, a corner of what is made
     std::uint32_t marks = 0;

@@ -69,7 +69,6 @@ FacingGrid::FacingGrid(const std::vector<BoxTree::Item>& items) {
     for (const BoxTree::Item& item : items) add(item.box, facing(item.normal));
 }
 
-/// What is outside belongs to the outermost cells.
 FacingGrid::Range FacingGrid::range_of(const FloatBox& box) const {
     Range range;
     for (int k = 0; k < 3; ++k) {
@@ -80,24 +79,9 @@ FacingGrid::Range FacingGrid::range_of(const FloatBox& box) const {
     return range;
 }
 
-template <typename Cells, typename F>
-void FacingGrid::each(Cells& cells, const int* size, const Range& range, const F& visit) {
-    for (int z = range.low[2]; z <= range.high[2]; ++z)
-        for (int y = range.low[1]; y <= range.high[1]; ++y) {
-            auto* row = cells.data() +
-                        (std::size_t(z) * std::size_t(size[1]) + std::size_t(y)) * std::size_t(size[0]);
-            for (int x = range.low[0]; x <= range.high[0]; ++x) visit(row[x]);
-        }
-}
-
-void FacingGrid::add(const FloatBox& box, Facing faced) {
-    each(cells, size, range_of(box), [&](Facing& cell) { cell &= faced; });
-}
-
 Facing FacingGrid::common(const FloatBox& box, Facing faced) const {
-    const Range range = range_of(box);
-    if (range.count() > large) return 0;
-    each(cells, size, range, [&](const Facing& cell) { faced &= cell; });
+    if (range_of(box).count() > large) return 0;
+    each(box, [&](std::size_t cell) { faced &= cells[cell]; });
     return faced;
 }
 

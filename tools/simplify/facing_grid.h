@@ -20,9 +20,22 @@ class FacingGrid {
     FacingGrid() = default;
     explicit FacingGrid(const std::vector<BoxTree::Item>& items);
 
-    void add(const FloatBox& box, Facing faced);
+    void add(const FloatBox& box, Facing faced) {
+        each(box, [&](std::size_t cell) { cells[cell] &= faced; });
+    }
     /// The directions that everything in the box, and what faces `faced`, faces; none where the box is large.
     Facing common(const FloatBox& box, Facing faced) const;
+
+    std::size_t count() const { return cells.size(); }
+    /// Calls visit(number) for the cells that the box touches. What is outside belongs to the outermost ones.
+    template <typename F> void each(const FloatBox& box, const F& visit) const {
+        const Range r = range_of(box);
+        for (int z = r.low[2]; z <= r.high[2]; ++z)
+            for (int y = r.low[1]; y <= r.high[1]; ++y)
+                for (int x = r.low[0]; x <= r.high[0]; ++x)
+                    visit(std::size_t(x) +
+                          std::size_t(size[0]) * (std::size_t(y) + std::size_t(size[1]) * std::size_t(z)));
+    }
 
   private:
     struct Range {
@@ -30,9 +43,6 @@ class FacingGrid {
         int count() const { return (high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1); }
     };
     Range range_of(const FloatBox& box) const;
-    /// Calls visit(cell).
-    template <typename Cells, typename F>
-    static void each(Cells& cells, const int* size, const Range& range, const F& visit);
 
     glm::vec3 low{0};
     float per_unit = 0; ///< cells

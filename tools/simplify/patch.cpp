@@ -22,6 +22,9 @@ double squared_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
     return squares > 0 ? 12 * squared_normal / (squares * squares) : 0;
 }
 
+// Tried where the best one would let the surface cross itself.
+constexpr std::size_t most_places = 16;
+
 // Of the length of the sum of normals to the sum of their lengths: below, the surface turns back on itself.
 constexpr double flat_enough = 0.4;
 
@@ -241,6 +244,7 @@ template <int N> bool Patch<N>::evade(std::uint32_t c, Placement& to) {
             }
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& x, const auto& y) { return x.cost < y.cost; });
+    places.resize(std::min(places.size(), most_places));
     for (const Placement& p : places)
         if (allowed(c, p.point)) {
             to = {p.point, std::max(to.cost, p.cost)};

@@ -232,6 +232,7 @@ class Fit {
     /// One vertex after the other, so that the surface never passes through itself; who is in another's way
     /// waits until that one has moved, and at last goes half the way, or none.
     void move_to(const std::vector<glm::dvec3>& wanted) {
+        guard.build(surface());
         std::vector<std::uint32_t> waiting, still;
         for (std::uint32_t v = 0; v < wanted.size(); ++v)
             if (wanted[v] != mesh.positions[v]) waiting.push_back(v);
