@@ -46,8 +46,8 @@ class CrossingGuard {
     /// count.
     bool crosses(const Surface& surface, const SurfaceChange& change);
 
-    /// These have changed, or are gone.
-    void changed(const Surface& surface, std::span<const std::uint32_t> triangles);
+    /// The change that was last asked about has been made.
+    void made_it(const Surface& surface, const SurfaceChange& change);
 
   private:
     /// A triangle that is made.
@@ -65,6 +65,8 @@ class CrossingGuard {
 
     bool lives(const Surface& surface, std::uint32_t t) const;
     FloatBox box_of(const std::array<glm::dvec3, 3>& at) const;
+    std::vector<BoxTree::Item> all_items(const Surface& surface) const;
+    void build_tree(const Surface& surface);
     BoxTree::Item item_of(const Surface& surface, std::uint32_t t) const;
     /// The direction that all made triangles face, if there is one.
     std::optional<glm::dvec3> take_made(const Surface& surface, const SurfaceChange& change);
@@ -80,17 +82,22 @@ class CrossingGuard {
     Nearness nearness;
     FacingGrid grid;
     BoxTree tree;
-    /// Triangles that have changed, but not in the tree: a list for each cell that they touch.
+    bool has_tree = false; ///< made when it is first needed
+    /// Triangles that have changed, but not in the tree: for each cell of the grid a list of ranges of
+    /// `changed`.
     struct Late {
-        std::uint32_t triangle, next;
+        std::uint32_t first, count, next;
     };
+    std::vector<std::uint32_t> changed;
     std::vector<Late> late;
     std::vector<std::uint32_t> first_late; ///< by cell
-    std::size_t live = 0, built = 0;       ///< triangles now, and when the tree was made
+    std::size_t live = 0, built = 0;       ///< triangles now, and when the grid was made
 
     std::vector<std::uint32_t> triangle_mark, vertex_mark; ///< `marks`: replaced, a corner of what is made
     std::uint32_t marks = 0;
     std::vector<Made> made;
+    FloatBox made_box;
+    Facing faced = 0;                         ///< by all that is made
     std::vector<const BoxTree::Item*> others; ///< in the box of the change
 };
 

@@ -262,8 +262,9 @@ template <int N> bool Patch<N>::crosses(std::uint32_t c, const glm::dvec3& to) {
     change.to = to;
     const auto add = [&](std::uint32_t h, std::uint32_t gone) {
         const std::uint32_t v = at[next(h)], w = at[previous(h)];
+        if (v == ghost || w == ghost) return;
         change.replaced.push_back(h / 3);
-        if (v != gone && w != gone && v != ghost && w != ghost) change.made.push_back({kept, v, w});
+        if (v != gone && w != gone) change.made.push_back({kept, v, w});
     };
     around(removed, [&](std::uint32_t h) { add(h, kept); });
     around(kept, [&](std::uint32_t h) {
@@ -311,7 +312,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    if (!strictness[stage].may_cross) guard.changed(guarded(), change.replaced);
+    if (!strictness[stage].may_cross) guard.made_it(guarded(), change);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

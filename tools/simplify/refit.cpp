@@ -136,7 +136,7 @@ class Fit {
                 if (guard.crosses(surface(), change)) continue;
                 mesh.triangles[left] = change.made[0];
                 mesh.triangles[right] = change.made[1];
-                guard.changed(surface(), change.replaced);
+                guard.made_it(surface(), change);
                 touched[a] = touched[b] = touched[c] = touched[d] = any = true;
                 break;
             }
@@ -251,7 +251,7 @@ class Fit {
         for (const std::uint32_t t : change.replaced) change.made.push_back(mesh.triangles[t]);
         if (guard.crosses(surface(), change)) return false;
         mesh.positions[v] = to;
-        guard.changed(surface(), change.replaced);
+        guard.made_it(surface(), change);
         return true;
     }
 
