@@ -38,7 +38,6 @@ class BoxTree {
     /// Of any items; at most so many triangles have numbers.
     BoxTree(std::vector<Item>&& items, std::size_t triangles);
 
-    bool holds(std::uint32_t triangle) const { return place[triangle] != UINT32_MAX; }
     /// Of its triangle, which must be one that the tree was made of; its box may be empty.
     void change(const Item& item);
 

@@ -69,12 +69,26 @@ bool CrossingGuard::lives(const Surface& surface, std::uint32_t t) const {
     return std::max({corners[0], corners[1], corners[2]}) < surface.positions.size();
 }
 
-void CrossingGuard::build(const Surface& surface) {
+std::vector<BoxTree::Item> CrossingGuard::all_items(const Surface& surface) const {
     std::vector<BoxTree::Item> items;
     for (std::uint32_t t = 0; t < triangle_mark.size(); ++t)
         if (lives(surface, t)) items.push_back(item_of(surface, t));
+    return items;
+}
+
+void CrossingGuard::build(const Surface& surface) {
+    const std::vector<BoxTree::Item> items = all_items(surface);
     live = built = items.size();
-    tree = BoxTree(std::move(items), triangle_mark.size());
+    grid = FacingGrid(items);
+    has_tree = false;
+}
+
+void CrossingGuard::build_tree(const Surface& surface) {
+    tree = BoxTree(all_items(surface), triangle_mark.size());
+    has_tree = true;
+    changed.clear();
+    late.clear();
+    first_late.assign(grid.count(), UINT32_MAX);
 }
 
 /// Wider all round by what is too near.
@@ -89,20 +103,34 @@ BoxTree::Item CrossingGuard::item_of(const Surface& surface, std::uint32_t t) co
     return {box_of(facet.at), glm::vec3(unit(doubled_area(facet.at))), t};
 }
 
-void CrossingGuard::changed(const Surface& surface, std::span<const std::uint32_t> triangles) {
-    for (const std::uint32_t t : triangles) {
-        if (lives(surface, t)) {
-            tree.change(item_of(surface, t));
-        } else if (tree.holds(t)) {
-            tree.change({{}, glm::vec3(0), t});
-            --live;
-        }
-    }
-    if (built > never_worn_out && double(live) < worn_out * double(built)) build(surface);
+void CrossingGuard::made_it(const Surface& surface, const SurfaceChange& change) {
+    live -= change.replaced.size() - made.size();
+    if (built > never_worn_out && double(live) < worn_out * double(built)) return build(surface);
+    grid.add(made_box, faced);
+    if (!has_tree) return;
+    const auto first = std::uint32_t(changed.size()), count = std::uint32_t(change.replaced.size());
+    changed.insert(changed.end(), change.replaced.begin(), change.replaced.end());
+    grid.each(made_box, [&](std::size_t cell) {
+        late.push_back({first, count, first_late[cell]});
+        first_late[cell] = std::uint32_t(late.size() - 1);
+    });
+}
+
+/// The tree, as far as the box reaches; what is gone stays in it.
+void CrossingGuard::bring_up_to_date(const Surface& surface, const FloatBox& box) {
+    if (!has_tree) return build_tree(surface);
+    grid.each(box, [&](std::size_t cell) {
+        for (std::uint32_t k = first_late[cell]; k != UINT32_MAX; k = late[k].next)
+            for (const std::uint32_t t : std::span(changed).subspan(late[k].first, late[k].count))
+                if (lives(surface, t)) tree.change(item_of(surface, t));
+        first_late[cell] = UINT32_MAX;
+    });
 }
 
 std::optional<glm::dvec3> CrossingGuard::take_made(const Surface& surface, const SurfaceChange& change) {
     made.clear();
+    made_box = {};
+    faced = ~Facing(0);
     glm::dvec3 sum(0);
     for (const Triangle& t : change.made) {
         Facet facet = facet_of(surface, t);
@@ -111,6 +139,8 @@ std::optional<glm::dvec3> CrossingGuard::take_made(const Surface& surface, const
         const glm::dvec3 area = doubled_area(facet.at);
         sum += area;
         made.push_back({facet, box_of(facet.at), unit(area)});
+        made_box.add(made.back().box);
+        faced &= facing(glm::vec3(made.back().normal));
     }
     const glm::dvec3 direction = unit(sum);
     for (const Made& triangle : made)
@@ -127,11 +157,25 @@ void CrossingGuard::mark(const Surface& surface, const SurfaceChange& change) {
     }
 }
 
+/// Is it all on one side of the triangle's plane, but for corners that they share?
+bool CrossingGuard::beyond(const Made& triangle, const Facet& other) const {
+    const Triangle& own = triangle.facet.corners;
+    bool above = true, below = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (other.corners[k] == own[0] || other.corners[k] == own[1] || other.corners[k] == own[2]) continue;
+        const double height = dot(triangle.normal, other.at[k] - triangle.facet.at[0]);
+        above &= height > nearness.distance;
+        below &= height < -nearness.distance;
+    }
+    return above != below;
+}
+
 bool CrossingGuard::meets(const Surface& surface, const SurfaceChange& change,
                           const BoxTree::Item& other) const {
     const Facet facet = facet_of(surface, corners_of(surface, other.triangle));
     for (const Made& triangle : made)
-        if (triangle.box.overlaps(other.box) && !are_apart(triangle.facet, facet, nearness))
+        if (triangle.box.overlaps(other.box) && !beyond(triangle, facet) &&
+            !are_apart(triangle.facet, facet, nearness))
             return !crossed(surface, change, facet.corners);
     return false;
 }
@@ -158,16 +202,18 @@ CrossingGuard::Slab CrossingGuard::slab_of(const Surface& surface, const Surface
 
 bool CrossingGuard::crosses(const Surface& surface, const SurfaceChange& change) {
     const std::optional<glm::dvec3> direction = take_made(surface, change);
-    FloatBox box;
-    for (const Made& triangle : made) box.add(triangle.box);
+    FloatBox box = made_box;
     for (const std::uint32_t t : change.replaced)
         if (lives(surface, t)) box.add(box_of(facet_of(surface, corners_of(surface, t)).at));
+    if (is_closed && faced && grid.common(box, faced)) return false;
+    bring_up_to_date(surface, box);
     mark(surface, change);
     others.clear();
     bool one_way = is_closed && direction;
     const glm::vec3 towards(direction.value_or(glm::dvec3(0)));
     const Slab slab = one_way ? slab_of(surface, change, *direction) : Slab{};
     tree.overlapping(box, [&](const BoxTree::Item& item) {
+        if (!lives(surface, item.triangle)) return;
         if (one_way && dot(item.normal, towards) <= float(least_cosine)) {
             Slab of_item;
             for (const std::uint32_t v : corners_of(surface, item.triangle))

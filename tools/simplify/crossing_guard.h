@@ -11,6 +11,7 @@
 #include <span>
 
 #include "tools/simplify/box_tree.h"
+#include "tools/simplify/facing_grid.h"
 #include "tools/simplify/separation.h"
 
 namespace glcast {
@@ -37,13 +38,16 @@ class CrossingGuard {
     /// `closed`: without boundaries.
     CrossingGuard(const Surface& surface, bool closed);
 
+    /// From now on look at the surface as it is; spares work after many changes.
+    void build(const Surface& surface);
+
     /// Would a triangle that is made cross another one, or come nearer to it than positions change when they
     /// are rounded to floats, or lie folded on a neighbour? What a replaced triangle crossed already does not
     /// count.
     bool crosses(const Surface& surface, const SurfaceChange& change);
 
-    /// These have changed, or are gone.
-    void changed(const Surface& surface, std::span<const std::uint32_t> triangles);
+    /// The change that was last asked about has been made.
+    void made_it(const Surface& surface, const SurfaceChange& change);
 
   private:
     /// A triangle that is made.
@@ -59,26 +63,41 @@ class CrossingGuard {
         bool clear_of(const Slab& o, double by) const { return low > o.high + by || high < o.low - by; }
     };
 
-    void build(const Surface& surface);
     bool lives(const Surface& surface, std::uint32_t t) const;
     FloatBox box_of(const std::array<glm::dvec3, 3>& at) const;
+    std::vector<BoxTree::Item> all_items(const Surface& surface) const;
+    void build_tree(const Surface& surface);
     BoxTree::Item item_of(const Surface& surface, std::uint32_t t) const;
     /// The direction that all made triangles face, if there is one.
     std::optional<glm::dvec3> take_made(const Surface& surface, const SurfaceChange& change);
     Slab slab_of(const Surface& surface, const SurfaceChange& change, const glm::dvec3& direction) const;
+    void bring_up_to_date(const Surface& surface, const FloatBox& box);
     void mark(const Surface& surface, const SurfaceChange& change);
+    bool beyond(const Made& triangle, const Facet& other) const;
     bool meets(const Surface& surface, const SurfaceChange& change, const BoxTree::Item& other) const;
     bool meet_each_other(const Surface& surface, const SurfaceChange& change) const;
 
     bool is_closed = false;
     glm::dvec3 middle{0}; ///< boxes are relative to it
     Nearness nearness;
+    FacingGrid grid;
     BoxTree tree;
-    std::size_t live = 0, built = 0; ///< triangles now, and when the tree was made
+    bool has_tree = false; ///< made when it is first needed
+    /// Triangles that have changed, but not in the tree: for each cell of the grid a list of ranges of
+    /// `changed`.
+    struct Late {
+        std::uint32_t first, count, next;
+    };
+    std::vector<std::uint32_t> changed;
+    std::vector<Late> late;
+    std::vector<std::uint32_t> first_late; ///< by cell
+    std::size_t live = 0, built = 0;       ///< triangles now, and when the grid was made
 
     std::vector<std::uint32_t> triangle_mark, vertex_mark; ///< `marks`: replaced, a corner of what is made
     std::uint32_t marks = 0;
     std::vector<Made> made;
+    FloatBox made_box;
+    Facing faced = 0;                         ///< by all that is made
     std::vector<const BoxTree::Item*> others; ///< in the box of the change
 };
 

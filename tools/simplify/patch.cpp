@@ -22,6 +22,9 @@ double squared_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
     return squares > 0 ? 12 * squared_normal / (squares * squares) : 0;
 }
 
+// Tried where the best one would let the surface cross itself.
+constexpr std::size_t most_places = 16;
+
 // Of the length of the sum of normals to the sum of their lengths: below, the surface turns back on itself.
 constexpr double flat_enough = 0.4;
 
@@ -232,13 +235,16 @@ template <int N> bool Patch<N>::evade(std::uint32_t c, Placement& to) {
     const glm::dvec3 middle = (position[a] + position[b]) * 0.5;
     std::vector<Placement> places;
     for (const glm::dvec3& p : {position[a], position[b], middle}) places.push_back({p, q.at(p)});
-    for (const double d : {0.05, 0.1, 0.2, 0.4})
-        for (const double sign : {-1, 1}) {
-            const glm::dvec3 p = to.point + normal * (sign * d);
-            places.push_back({p, q.at(p)});
-        }
+    const glm::dvec3 best = to.point;
+    for (const double d : {0.02, 0.05, 0.1, 0.2, 0.4})
+        for (const double sign : {-1, 1})
+            for (const glm::dvec3& base : {best, middle, position[a], position[b]}) {
+                const glm::dvec3 p = base + normal * (sign * d);
+                places.push_back({p, q.at(p)});
+            }
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& x, const auto& y) { return x.cost < y.cost; });
+    places.resize(std::min(places.size(), most_places));
     for (const Placement& p : places)
         if (allowed(c, p.point)) {
             to = {p.point, std::max(to.cost, p.cost)};
@@ -256,8 +262,9 @@ template <int N> bool Patch<N>::crosses(std::uint32_t c, const glm::dvec3& to) {
     change.to = to;
     const auto add = [&](std::uint32_t h, std::uint32_t gone) {
         const std::uint32_t v = at[next(h)], w = at[previous(h)];
+        if (v == ghost || w == ghost) return;
         change.replaced.push_back(h / 3);
-        if (v != gone && w != gone && v != ghost && w != ghost) change.made.push_back({kept, v, w});
+        if (v != gone && w != gone) change.made.push_back({kept, v, w});
     };
     around(removed, [&](std::uint32_t h) { add(h, kept); });
     around(kept, [&](std::uint32_t h) {
@@ -305,7 +312,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    if (!strictness[stage].may_cross) guard.changed(guarded(), change.replaced);
+    if (!strictness[stage].may_cross) guard.made_it(guarded(), change);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

@@ -136,7 +136,7 @@ class Fit {
                 if (guard.crosses(surface(), change)) continue;
                 mesh.triangles[left] = change.made[0];
                 mesh.triangles[right] = change.made[1];
-                guard.changed(surface(), change.replaced);
+                guard.made_it(surface(), change);
                 touched[a] = touched[b] = touched[c] = touched[d] = any = true;
                 break;
             }
@@ -232,6 +232,7 @@ class Fit {
     /// One vertex after the other, so that the surface never passes through itself; who is in another's way
     /// waits until that one has moved, and at last goes half the way, or none.
     void move_to(const std::vector<glm::dvec3>& wanted) {
+        guard.build(surface());
         std::vector<std::uint32_t> waiting, still;
         for (std::uint32_t v = 0; v < wanted.size(); ++v)
             if (wanted[v] != mesh.positions[v]) waiting.push_back(v);
@@ -250,7 +251,7 @@ class Fit {
         for (const std::uint32_t t : change.replaced) change.made.push_back(mesh.triangles[t]);
         if (guard.crosses(surface(), change)) return false;
         mesh.positions[v] = to;
-        guard.changed(surface(), change.replaced);
+        guard.made_it(surface(), change);
         return true;
     }
 
