@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/common.hpp>
 #include <optional>
 #include <sstream>
@@ -115,8 +114,8 @@ int GlbBuilder::add_view(const void* data, std::size_t size, int target, std::si
     view.byteStride = stride;
     view.target = target;
     if (bytes.size() + size > largest_glb) refuse("the mesh is too large for .glb (4 GB); write .ply");
-    bytes.resize(bytes.size() + size);
-    if (size > 0) std::memcpy(bytes.data() + view.byteOffset, data, size);
+    const auto* from = static_cast<const unsigned char*>(data);
+    bytes.insert(bytes.end(), from, from + size);
     model.bufferViews.push_back(view);
     return static_cast<int>(model.bufferViews.size()) - 1;
 }
