@@ -71,7 +71,7 @@ TEST(SimplifyLog, LeadsToEveryLevelBitForBit) {
 TEST(SimplifyLog, LeadsToLevelsThatARoundOfTilesPassesBy) {
     expect_log_leads_to_levels(large_torus(), {{Unit::triangles, 280'000},
                                                {Unit::edges, 400'000},
-                                                                          {Unit::triangles, 100'001},
+                                               {Unit::triangles, 100'001},
                                                {Unit::triangles, 1000}});
 }
 
@@ -118,6 +118,31 @@ TEST(SimplifyTiles, AreTheSameOnAnyNumberOfThreads) {
         four = simplify_levels(large_torus(), targets);
     }
     for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(same(one[k], four[k])) << k;
+}
+
+TEST(SimplifyTiles, LeaveTheNormalsAloneInTheLastStretch) {
+    Mesh mesh = large_torus();
+    for (const glm::dvec3& p : mesh.positions)
+        mesh.normals.push_back(glm::vec3(glm::normalize(p - 2.0 * glm::normalize(glm::dvec3(p.x, p.y, 0)))));
+    const std::size_t all = mesh.triangles.size();
+    const std::vector<std::vector<SimplifyTarget>> asked = {
+        {},                                                                            // nothing to do
+        {{Unit::triangles, double(all)}},                                              // nothing to collapse
+        {{Unit::ratio, 1}, {Unit::ratio, 0.9}},                                        // rounds alone
+        {{Unit::triangles, 2000}, {Unit::triangles, double(all)}, {Unit::ratio, 0.9}}, // both
+    };
+    for (const auto& targets : asked) {
+        const std::vector<Mesh> alone = simplify_levels(mesh, targets);
+        Mesh changed = mesh;
+        int called = 0;
+        const std::vector<Mesh> beside = simplify_levels(changed, targets, {.last_stretch = [&] {
+                                                             ++called;
+                                                             for (glm::vec3& n : changed.normals) n = -n;
+                                                         }});
+        EXPECT_EQ(called, 1);
+        ASSERT_EQ(beside.size(), alone.size());
+        for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_TRUE(same(beside[k], alone[k])) << k;
+    }
 }
 
 TEST(SimplifyTiles, AreManifoldAndNearTheTruthAtEveryLevel) {

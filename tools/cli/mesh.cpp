@@ -1,6 +1,7 @@
 // glcast mesh: capture -> surface -> levels -> file.
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <sys/resource.h>
@@ -57,6 +58,8 @@ struct Made {
     double sample = 0;
     double read_seconds = 0, surface_seconds = 0, simplify_seconds = 0, measure_seconds = 0,
            write_seconds = 0, texture_seconds = 0;
+
+    std::future<std::vector<TextureReport>> full_texture; ///< level 0's, where it is baked beside the last collapses
 
     const Mesh& full() const { return levels[0].mesh; }
 };
@@ -146,6 +149,14 @@ void make_surface(const Options& options, Made& made) {
     require_manifold(made.checks[0], "the surface");
 }
 
+/// Beside the last collapses, which leave cores idle.
+void begin_full_texture(const Options& options, Made& made) {
+    if (!options.texture || !made.keep_full) return;
+    made.full_texture = std::async(std::launch::async, [&] {
+        return texture_levels(std::span(made.levels).first(1), made.captured, options.texture);
+    });
+}
+
 /// The full surface first, then the targets, finest first.
 void make_levels(const Options& options, Made& made) {
     const Progress progress("simplifying");
@@ -159,9 +170,12 @@ void make_levels(const Options& options, Made& made) {
     if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
     const MeshCheck& full_check = made.checks[0];
     if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
-    std::vector<Mesh> simplified = options.pm.empty()
-                                       ? simplify_levels(made.full(), targets, {.checked = &full_check})
-                                       : levels_of_one_run(made.full(), targets, made.log);
+    made.levels.reserve(1 + targets.size()); // level 0 stays where it is
+    std::vector<Mesh> simplified =
+        options.pm.empty()
+            ? simplify_levels(made.full(), targets,
+                              {.checked = &full_check, .last_stretch = [&] { begin_full_texture(options, made); }})
+            : levels_of_one_run(made.full(), targets, made.log);
     for (Mesh& mesh : simplified) {
         const std::string name = "level " + std::to_string(made.levels.size());
         made.checks.push_back(check_mesh(mesh, depth(options)));
@@ -174,8 +188,11 @@ void make_levels(const Options& options, Made& made) {
 void bake_textures(const Options& options, Made& made) {
     if (!options.texture) return;
     const Stopwatch watch;
-    const std::span<Level> written = std::span(made.levels).subspan(made.keep_full ? 0 : 1);
-    made.textures = texture_levels(written, made.captured, options.texture);
+    const bool begun = made.full_texture.valid();
+    const std::span<Level> rest = std::span(made.levels).subspan(made.keep_full && !begun ? 0 : 1);
+    std::vector<TextureReport> reports = texture_levels(rest, made.captured, options.texture);
+    if (begun) made.textures = made.full_texture.get();
+    made.textures.insert(made.textures.end(), reports.begin(), reports.end());
     made.captured = {}; // it is large
     made.texture_seconds = watch.seconds();
 }
@@ -187,7 +204,6 @@ Compression compression(const Options& options) {
 
 /// Against the full surface; where the file will hold rounded levels, these, and level 0 too.
 void measure_levels(const Options& options, Made& made) {
-    const Progress progress("measuring");
     const Stopwatch watch;
     made.levels[0].error.unsupported_area_share = made.report.unsupported_area_share;
     std::optional<Level> exact;
@@ -206,13 +222,32 @@ void measure_levels(const Options& options, Made& made) {
     made.measure_seconds = watch.seconds();
 }
 
-void write(const Options& options, Made& made) {
-    const Progress progress("writing " + options.output);
-    const Stopwatch watch;
+/// `await_errors`: until then the levels may still be measured.
+void write(const Options& options, Made& made, const std::function<void()>& await_errors = {}) {
+    const Progress progress((await_errors ? "measuring, and writing " : "writing ") + options.output);
+    Stopwatch watch;
     if (!options.pm.empty()) write_pm(options.pm, made.full(), made.log, made.sample);
     if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
-    made.files = write_levels(options.output, made.levels, {compression(options), options.split});
+    made.files = write_levels(options.output, made.levels, {compression(options), options.split, [&] {
+                                                                if (!await_errors) return;
+                                                                await_errors();
+                                                                watch = {};
+                                                            }});
     made.write_seconds = watch.seconds();
+}
+
+/// Where no level is rounded for the file, it is made ready beside the measuring.
+void measure_and_write(const Options& options, Made& made) {
+    if (!is_glb(options) || compression(options) != Compression::none) {
+        {
+            const Progress progress("measuring");
+            measure_levels(options, made);
+        }
+        write(options, made);
+        return;
+    }
+    auto measured = std::async(std::launch::async, [&] { measure_levels(options, made); });
+    write(options, made, [&] { measured.get(); });
 }
 
 Json describe_level(const Made& made, std::size_t k) {
@@ -287,8 +322,7 @@ int make_mesh(const Options& options) {
     make_surface(options, made);
     make_levels(options, made);
     bake_textures(options, made);
-    measure_levels(options, made);
-    write(options, made);
+    measure_and_write(options, made);
     if (options.json)
         print_made(options, made);
     else
@@ -305,6 +339,7 @@ std::vector<Level> mesh_capture(const std::string& capture) {
     Made made;
     make_surface(options, made);
     make_levels(options, made);
+    const Progress progress("measuring");
     measure_levels(options, made);
     return std::move(made.levels);
 }

@@ -27,10 +27,10 @@ struct Probe {
 };
 
 std::vector<Probe> probes(const Level& level) {
-    std::vector<Probe> all;
-    for (const AreaSample& s : area_samples(level.mesh, points_a_side)) all.push_back({s, {}});
+    const std::vector<AreaSample> samples = area_samples(level.mesh, points_a_side);
+    std::vector<Probe> all(samples.size());
     tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
-        all[i].shown = shown(level, all[i].at.triangle, all[i].at.weights);
+        all[i] = {samples[i], shown(level, samples[i].triangle, samples[i].weights)};
     });
     return all;
 }

@@ -168,7 +168,7 @@ std::vector<std::filesystem::path> write_levels(const std::filesystem::path& pat
     if (levels.empty()) throw std::logic_error("no levels to write");
     format::FileSet files; // all are written before the first appears
     if (f.many_levels) {
-        format::write_glb(files.mesh(path), levels, options.compression);
+        format::write_glb(files.mesh(path), levels, options.compression, nullptr, options.await_errors);
         if (options.split) write_split(files, path, levels, options.compression);
     } else
         for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k]);

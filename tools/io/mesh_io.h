@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "tools/mesh/level.h"
@@ -25,6 +26,9 @@ enum class Compression {
 struct WriteOptions {
     Compression compression = Compression::none;
     bool split = false; ///< .glb: beside NAME.glb a file for each level, NAME.lod0.glb, NAME.lod1.glb, ...
+    /// .glb: called once all but the errors has been taken from the levels, which may still be measured until it
+    /// returns. What it throws is passed on, and nothing is written.
+    std::function<void()> await_errors = {};
 };
 
 /// Leaves of the levels what a compressed file will hold, so that what is measured afterwards is true of the file. No

@@ -64,24 +64,25 @@ double SurfaceWalk::improve(const glm::dvec3& point, std::uint32_t vertex, doubl
     return best;
 }
 
-void SurfaceWalk::take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts) const {
+void SurfaceWalk::take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts,
+                                  const std::vector<glm::vec3>& normals) const {
     if (!mesh.colours.empty()) into.colours.resize(into.positions.size());
-    if (!mesh.normals.empty()) into.normals.resize(into.positions.size());
+    if (!normals.empty()) into.normals.resize(into.positions.size());
     tbb::parallel_for(std::size_t(0), into.positions.size(), [&](std::size_t i) {
         if (into.positions[i] == mesh.positions[starts[i]]) { // it did not move: as it was, to the bit
             if (!mesh.colours.empty()) into.colours[i] = mesh.colours[starts[i]];
-            if (!mesh.normals.empty()) into.normals[i] = mesh.normals[starts[i]];
+            if (!normals.empty()) into.normals[i] = normals[starts[i]];
             return;
         }
         const Place place = nearest(into.positions[i], starts[i]);
         const Triangle& t = mesh.triangles[place.triangle];
         const std::uint32_t main = t[std::size_t(heaviest(place.weights))];
         if (!mesh.colours.empty()) into.colours[i] = mesh.colours[main];
-        if (mesh.normals.empty()) return;
+        if (normals.empty()) return;
         glm::dvec3 normal(0);
-        for (int k = 0; k < 3; ++k) normal += place.weights[k] * glm::dvec3(mesh.normals[t[std::size_t(k)]]);
+        for (int k = 0; k < 3; ++k) normal += place.weights[k] * glm::dvec3(normals[t[std::size_t(k)]]);
         const double length = glm::length(normal);
-        into.normals[i] = length > 0.1 ? glm::vec3(normal / length) : mesh.normals[main];
+        into.normals[i] = length > 0.1 ? glm::vec3(normal / length) : normals[main];
     });
 }
 

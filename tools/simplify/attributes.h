@@ -13,8 +13,10 @@ class SurfaceWalk {
     explicit SurfaceWalk(const Mesh& mesh); ///< `mesh` must outlive this
 
     /// The attributes of the surface at `positions[i]`, walking from vertex `starts[i]`. A colour is always
-    /// the colour of one vertex: mixing would invent colours where parts meet. Normals are interpolated.
-    void take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts) const;
+    /// the colour of one vertex: mixing would invent colours where parts meet. Normals, of the surface's
+    /// vertices, are interpolated.
+    void take_attributes(Mesh& into, const std::vector<std::uint32_t>& starts,
+                         const std::vector<glm::vec3>& normals) const;
 
     struct Place {
         std::uint32_t triangle = 0;

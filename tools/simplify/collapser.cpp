@@ -30,15 +30,18 @@ template <int N> class RoundsCollapser final : public Collapser {
     }
 
     void reduce_to(const Limit& limit) override {
-        while (!meets(limit)) {
-            if (taken < steps.size()) {
-                take(steps[taken++]);
-            } else if (in_one_patch) {
-                if (!collapse_one()) return;
-            } else {
-                go_on();
+        if (run_rounds(limit))
+            while (!meets(limit) && collapse_one()) {
             }
-        }
+    }
+
+    bool run_rounds(const Limit& limit) override {
+        for (; !meets(limit) && (taken < steps.size() || !in_one_patch);)
+            if (taken < steps.size())
+                take(steps[taken++]);
+            else
+                go_on();
+        return in_one_patch;
     }
 
     Remainder remainder() const override {

@@ -44,6 +44,9 @@ class Collapser {
 
     /// Collapse edges, cheapest first, until the limit is kept, or no edge may collapse.
     virtual void reduce_to(const Limit& limit) = 0;
+    /// As much of it as is done in rounds, on all cores. True where all the rest is one patch, and so on one
+    /// core.
+    virtual bool run_rounds(const Limit& limit) = 0;
     virtual Remainder remainder() const = 0;
     virtual std::size_t collapses() const = 0; ///< so far
     virtual Log take_log() = 0;                ///< empty unless it was to be kept

@@ -1,6 +1,7 @@
 #include "tools/simplify/round.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <numeric>
@@ -139,6 +140,9 @@ template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) 
 template <int N> std::vector<Step> in_order(const std::vector<TileResult<N>>& results) {
     std::vector<Step> steps;
     std::vector<std::pair<float, std::uint32_t>> keys;
+    std::size_t count = 0;
+    for (const TileResult<N>& result : results) count += result.steps.size();
+    steps.reserve(count), keys.reserve(count);
     for (const TileResult<N>& result : results) {
         float dearest = 0;
         for (const Step& step : result.steps) {
@@ -147,7 +151,7 @@ template <int N> std::vector<Step> in_order(const std::vector<TileResult<N>>& re
             steps.push_back(step);
         }
     }
-    std::sort(keys.begin(), keys.end());
+    tbb::parallel_sort(keys.begin(), keys.end());
     std::vector<Step> ordered(steps.size());
     tbb::parallel_for(std::size_t(0), keys.size(),
                       [&](std::size_t k) { ordered[k] = steps[keys[k].second]; });

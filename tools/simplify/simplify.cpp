@@ -41,20 +41,40 @@ std::string fault(const MeshCheck& check, const SimplifyOptions& options) {
            describe(check) + ")";
 }
 
-Mesh finished(Collapser::Remainder&& remainder, const SurfaceWalk& walk, const SimplifyOptions& options) {
+/// Calls for whoever waits for it, once; the mesh's normals are theirs from then on.
+class LastStretch {
+  public:
+    LastStretch(const Mesh& mesh, const std::function<void()>& waiting) : mesh(mesh), waiting(waiting) {}
+    void begin() {
+        if (begun || !waiting) return;
+        own = mesh.normals;
+        begun = true;
+        waiting();
+    }
+    const std::vector<glm::vec3>& normals() const { return begun ? own : mesh.normals; }
+
+  private:
+    const Mesh& mesh;
+    const std::function<void()>& waiting;
+    std::vector<glm::vec3> own;
+    bool begun = false;
+};
+
+Mesh finished(Collapser::Remainder&& remainder, const SurfaceWalk& walk,
+              const std::vector<glm::vec3>& normals, const SimplifyOptions& options) {
     Mesh mesh;
     mesh.positions = std::move(remainder.positions);
     mesh.triangles = std::move(remainder.triangles);
-    walk.take_attributes(mesh, remainder.sources);
+    walk.take_attributes(mesh, remainder.sources, normals);
     if (const std::string wrong = fault(check_mesh(mesh), options); !wrong.empty())
         throw std::logic_error("simplify made a mesh that is " + wrong + ": a bug in glcast");
     return mesh;
 }
 
-CollapseLog finished(Collapser::Log&& from, const SurfaceWalk& walk) {
+CollapseLog finished(Collapser::Log&& from, const SurfaceWalk& walk, const std::vector<glm::vec3>& normals) {
     Mesh points;
     for (const Collapse& collapse : from.collapses) points.positions.push_back(collapse.position);
-    walk.take_attributes(points, from.sources);
+    walk.take_attributes(points, from.sources, normals);
     for (std::size_t k = 0; k < from.collapses.size(); ++k) {
         if (!points.colours.empty()) from.collapses[k].colour = points.colours[k];
         if (!points.normals.empty()) from.collapses[k].normal = points.normals[k];
@@ -84,24 +104,28 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return size(a) > size(b); });
 
     std::vector<Mesh> levels(targets.size(), Mesh{});
-    std::unique_ptr<Collapser> collapser;
-    std::unique_ptr<SurfaceWalk> walk;
     if (log) log->clear();
-    for (const std::size_t level : order) {
-        if (keeps(have, limits[level])) {
-            levels[level] = mesh;
-            continue;
+    std::erase_if(order, [&](std::size_t level) {
+        const bool kept = keeps(have, limits[level]);
+        if (kept) levels[level] = mesh;
+        return kept;
+    });
+    LastStretch last_stretch(mesh, options.last_stretch);
+    if (!order.empty()) {
+        const auto collapser =
+            Collapser::make(mesh, {have.triangles, have.edges}, weights_of(options), log != nullptr);
+        std::optional<SurfaceWalk> walk;
+        for (const std::size_t level : order) {
+            if (collapser->run_rounds(limits[level])) last_stretch.begin();
+            collapser->reduce_to(limits[level]);
+            Collapser::Remainder remainder = collapser->remainder();
+            if (options.refit) refit(remainder, mesh);
+            if (!walk) walk.emplace(mesh);
+            levels[level] = finished(std::move(remainder), *walk, last_stretch.normals(), options);
         }
-        if (!collapser)
-            collapser =
-                Collapser::make(mesh, {have.triangles, have.edges}, weights_of(options), log != nullptr);
-        collapser->reduce_to(limits[level]);
-        Collapser::Remainder remainder = collapser->remainder();
-        if (options.refit) refit(remainder, mesh);
-        if (!walk) walk = std::make_unique<SurfaceWalk>(mesh);
-        levels[level] = finished(std::move(remainder), *walk, options);
+        if (log) *log = finished(collapser->take_log(), *walk, last_stretch.normals());
     }
-    if (log && collapser) *log = finished(collapser->take_log(), *walk);
+    last_stretch.begin();
     return levels;
 }
 

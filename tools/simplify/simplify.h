@@ -1,6 +1,7 @@
 // Quadric edge collapse (Garland and Heckbert 1997; colours and normals: Hoppe 1999), and a fit of what is
 // left.
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -28,6 +29,9 @@ struct SimplifyOptions {
     std::optional<double> normal_weight = {};
     /// What check_mesh() says of the mesh, where that is known already.
     const MeshCheck* checked = nullptr;
+    /// Called once, where most is done: what is left needs one core for the most part and little memory, and
+    /// reads mesh.normals no more. Something else may begin beside it.
+    std::function<void()> last_stretch = {};
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
