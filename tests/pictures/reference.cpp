@@ -75,6 +75,15 @@ SquaredError error_inside(const Picture& a, const Picture& b, const std::vector<
     return error;
 }
 
+/// `b` where both cover a sample, else `a`; or, not `within`, the other way round.
+Picture mixed(const Picture& a, const Picture& b, const std::vector<char>& first,
+              const std::vector<char>& second, bool within) {
+    Picture out = a;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i)
+        if ((first[i / 3] && second[i / 3]) == within) out.rgb[i] = b.rgb[i];
+    return out;
+}
+
 /// Covered by the reference, but drawn without light.
 std::vector<char> without_light(const ReferenceView& view) {
     std::vector<char> dark(view.lit.size());
@@ -98,12 +107,13 @@ struct PictureSum {
 };
 struct ViewError {
     PictureSum antialiased, one_sample;
-    SquaredError all, inside;
+    SquaredError all, inside, outline, filling;
     std::size_t covered = 0; ///< samples
 
     void operator+=(const ViewError& view) {
         antialiased += view.antialiased, one_sample += view.one_sample;
         all += view.all, inside += view.inside;
+        outline += view.outline, filling += view.filling;
         covered += view.covered;
     }
 };
@@ -113,9 +123,17 @@ PictureSum compare(const Picture& a, const Picture& b) { return {squared_error(a
 ViewError compare(const Mesh& mesh, const Texture& texture, const ReferenceView& view, int samples) {
     const SeenImage level = rasterise(mesh, texture, view.camera);
     const Picture a = lit(view), b = lit(level, view);
+    const auto part = [&](bool within) {
+        return squared_error(antialiased(a, samples),
+                             antialiased(mixed(a, b, view.seen.covered, level.covered, within), samples));
+    };
     ViewError error{compare(antialiased(a, samples), antialiased(b, samples)),
-                    compare(one_sample(a, samples), one_sample(b, samples)), squared_error(a, b),
-                    error_inside(a, b, view.seen.covered, level.covered), 0};
+                    compare(one_sample(a, samples), one_sample(b, samples)),
+                    squared_error(a, b),
+                    error_inside(a, b, view.seen.covered, level.covered),
+                    part(false),
+                    part(true),
+                    0};
     for (std::size_t p = 0; p < level.covered.size(); ++p)
         error.covered += level.covered[p] || view.seen.covered[p];
     return error;
@@ -196,6 +214,8 @@ PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<c
     result.one_sample = sum.one_sample.over(views.size());
     result.psnr_covered = psnr(sum.covered ? sum.all.sum / (3.0 * double(sum.covered)) : 0);
     result.psnr_inside = psnr(sum.inside.mean());
+    result.psnr_outline = psnr(sum.outline.mean());
+    result.psnr_filling = psnr(sum.filling.mean());
     result.background_share = 1 - double(sum.covered) / (double(sum.all.values) / 3);
     result.width = views.empty() ? 0 : views[0].camera.width / samples;
     result.views = views.size();

@@ -85,6 +85,8 @@ TEST(PictureError, AMissingSquareInClosedForm) {
     EXPECT_NEAR(error.psnr_covered, -10 * std::log10(value * value), 1e-9);
     EXPECT_NEAR(error.background_share, 1 - share, 1e-12);
     EXPECT_TRUE(std::isinf(error.psnr_inside)) << "no pixel is covered by both";
+    EXPECT_NEAR(error.psnr_outline, error.antialiased.psnr, 1e-9);
+    EXPECT_TRUE(std::isinf(error.psnr_filling));
     EXPECT_LT(error.one_sample.ssim, 1);
 }
 
@@ -106,6 +108,12 @@ TEST(PictureError, ASquareAsideInClosedForm) {
     EXPECT_EQ(error.width, n / 2);
     EXPECT_NEAR(error.antialiased.psnr, -10 * std::log10(half * half * side / pixels), 1e-9);
     EXPECT_TRUE(std::isinf(error.one_sample.psnr)) << "samples of odd columns: 21 to 49 of both";
+    EXPECT_NEAR(error.psnr_outline, error.antialiased.psnr, 1e-9);
+    EXPECT_TRUE(std::isinf(error.psnr_filling));
+    square.colours.assign(4, glm::vec3(1)); // 29 of 30 columns of it are white where both are
+    const PictureError white = picture_error(square, {}, {&view, 1}, 1);
+    EXPECT_NEAR(white.psnr_filling, -10 * std::log10(double(side) * (side - 1) / (n * n)), 1e-9);
+    EXPECT_LT(white.psnr_filling, white.psnr_outline);
     EXPECT_THROW(picture_error(square, {}, {&view, 1}, 7), std::invalid_argument);
 }
 

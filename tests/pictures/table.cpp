@@ -67,6 +67,8 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
                 {"ssimOneSample", error.one_sample.ssim},
                 {"psnrCovered", error.psnr_covered},
                 {"psnrInside", error.psnr_inside},
+                {"psnrOutline", error.psnr_outline},
+                {"psnrFilling", error.psnr_filling},
                 {"backgroundShare", error.background_share}};
     std::fprintf(
         stderr,

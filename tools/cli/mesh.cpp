@@ -15,6 +15,7 @@
 #include "tools/io/mesh_io.h"
 #include "tools/reconstruct/reconstruct.h"
 #include "tools/simplify/simplify.h"
+#include "tools/texture/outline.h"
 
 namespace glcast::cli {
 namespace {
@@ -185,6 +186,17 @@ void make_levels(const Options& options, Made& made) {
     made.simplify_seconds = watch.seconds();
 }
 
+/// Textures hide what lies inside outlines. Not levels that a progressive mesh or a measured limit binds.
+void lay_outlines(const Options& options, Made& made) {
+    if (!options.texture || !options.pm.empty() || !options.max_error.empty()) return;
+    const Stopwatch watch;
+    for (std::size_t k = 1; k < made.levels.size(); ++k) {
+        fit_outlines(made.levels[k].mesh, made.captured);
+        made.checks[k] = check_mesh(made.levels[k].mesh, depth(options));
+    }
+    made.simplify_seconds += watch.seconds();
+}
+
 void bake_textures(const Options& options, Made& made) {
     if (!options.texture) return;
     const Stopwatch watch;
@@ -321,6 +333,7 @@ int make_mesh(const Options& options) {
     Made made;
     make_surface(options, made);
     make_levels(options, made);
+    lay_outlines(options, made);
     bake_textures(options, made);
     measure_and_write(options, made);
     if (options.json)

@@ -101,10 +101,16 @@ class Shader {
         if (mesh.normals.empty()) return face(at);
         const glm::vec3 smooth = unit(mix(corners(mesh.normals, at), at.b, at.c));
         if (texture.empty() || texture.normal.rgb.empty()) return smooth;
-        const glm::vec4 tangent = mix(texture.tangents[at.triangle], at.b, at.c);
-        const glm::vec3 along = unit(glm::vec3(tangent)),
-                        across = glm::cross(smooth, along) * (tangent.w < 0 ? -1.0f : 1.0f);
-        const glm::vec3 bent = sample(texture.normal, coordinates(at)) * 2.0f - 1.0f;
+        // As glTF's sample viewer and three.js: tangent and bitangent of the corners, mixed, then unit again.
+        const std::array<glm::vec4, 3>& own = texture.tangents[at.triangle];
+        const std::array<glm::vec3, 3> normals = corners(mesh.normals, at);
+        std::array<glm::vec3, 3> tangents, bitangents;
+        for (std::size_t k = 0; k < 3; ++k) {
+            tangents[k] = glm::vec3(own[k]);
+            bitangents[k] = glm::cross(normals[k], tangents[k]) * own[k].w;
+        }
+        const glm::vec3 along = unit(mix(tangents, at.b, at.c)), across = unit(mix(bitangents, at.b, at.c)),
+                        bent = sample(texture.normal, coordinates(at)) * 2.0f - 1.0f;
         return unit(along * bent.x + across * bent.y + smooth * bent.z);
     }
 

@@ -14,6 +14,7 @@
 #include "tools/mesh/point_triangle.h"
 #include "tools/texture/fill.h"
 #include "tools/texture/owners.h"
+#include "tools/texture/reach.h"
 #include "tools/texture/shading_normals.h"
 #include "tools/texture/tangents.h"
 
@@ -21,9 +22,6 @@ namespace glcast {
 namespace {
 
 constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
-constexpr double least_reach = 1.5; // samples
-constexpr double most_triangles = 0.95;
-constexpr std::size_t most_probes = 20000;
 constexpr int block = 32;           // texels
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
@@ -66,31 +64,6 @@ glm::vec3 in_frame(const glm::vec3& wanted, const glm::vec3& normal, const glm::
 void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
     for (int c = 0; c < 3; ++c)
         picture.rgb[3 * texel + c] = std::uint8_t(double(std::clamp(value[c], 0.0f, 1.0f) * 255) + 0.5);
-}
-
-/// How far, in samples, to look for the surface from a level: what most of its triangles need, and as much
-/// again. Farther off are other parts of the scene.
-double needed_reach(const Mesh& mesh, const CapturedSurface& captured,
-                    const std::vector<glm::vec3>& normals) {
-    const std::size_t step = 1 + mesh.triangles.size() / most_probes;
-    std::vector<double> far((mesh.triangles.size() + step - 1) / step, -1);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, far.size(), 64), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const std::size_t t = i * step;
-            if (normals[t] == glm::vec3(0)) continue;
-            const Triangle& v = mesh.triangles[t];
-            const glm::dvec3 middle =
-                (mesh.positions[v[0]] + mesh.positions[v[1]] + mesh.positions[v[2]]) / 3.0;
-            const CapturedPoint seen =
-                captured.find(middle, normals[t], normals[t], captured.default_reach());
-            if (seen.found) far[i] = glm::distance(seen.position, middle) / captured.sample();
-        }
-    });
-    std::erase(far, -1);
-    if (far.empty()) return least_reach;
-    const auto most = far.begin() + std::ptrdiff_t(most_triangles * double(far.size() - 1));
-    std::nth_element(far.begin(), most, far.end());
-    return std::clamp(2 * *most, least_reach, captured.default_reach());
 }
 
 class Baker {
