@@ -54,6 +54,17 @@ glm::dvec3 middle_of(const std::array<glm::dvec3, 2>& angle) {
     return angle[0] * glm::length(angle[1]) + angle[1] * glm::length(angle[0]);
 }
 
+/// Does the plane of one side of each angle have the others on either hand?
+bool parts_by_sides(const glm::dvec3& s, const glm::dvec3& other_s, const glm::dvec3& t,
+                    const glm::dvec3& other_t, double distance) {
+    constexpr double least_sine = 1e-9; // else the sides may be one
+    const glm::dvec3 axis = cross(s, t);
+    const double length = glm::length(axis), far = distance * length;
+    if (length <= least_sine * glm::length(s) * glm::length(t)) return false;
+    const double at_s = dot(axis, other_s), at_t = dot(axis, other_t);
+    return (at_s > far && at_t < -far) || (at_s < -far && at_t > far);
+}
+
 /// With one: the two other corners of each, relative to it. A point of both would make all points between it
 /// and the common corner common, so that it is enough to part the angles there.
 bool apart(const std::array<glm::dvec3, 2>& s, const std::array<glm::dvec3, 2>& t, const Nearness& nearness) {
@@ -68,9 +79,9 @@ bool apart(const std::array<glm::dvec3, 2>& s, const std::array<glm::dvec3, 2>& 
         return true; // angles in one plane whose sides are in line, too
     const glm::dvec3 of_s = cross(s[0], s[1]), of_t = cross(t[0], t[1]);
     if (parts(of_s) || parts(of_t)) return true;
-    for (const glm::dvec3& e : s)
-        for (const glm::dvec3& f : t)
-            if (parts(cross(e, f))) return true;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+            if (parts_by_sides(s[i], s[1 - i], t[j], t[1 - j], nearness.distance)) return true;
     for (std::size_t i = 0; i < 2; ++i)
         if (parts(cross(of_s, s[i])) || parts(cross(of_t, t[i]))) return true;
     return false;
