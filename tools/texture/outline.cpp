@@ -19,7 +19,8 @@ namespace {
 
 // Measured on the teapot and bouncingcow's cow at 2,000 triangles, n = 512: see docs/textures.md.
 constexpr std::size_t most_triangles = 30'000;
-constexpr int rounds = 2;
+
+constexpr int rounds = 3;
 constexpr double surface_importance = 2;   // of all triangles, against outlines
 constexpr double inertia = 0.02;           // of what a vertex's part of the surface weighs
 constexpr double beside = 0.1;             // samples
@@ -27,7 +28,8 @@ constexpr double farthest_move = 1;        // samples, a round
 constexpr float least_cosine = 0.5f;       // of a triangle's normals before and after
 constexpr double flattest_edge = 0.01;     // radians
 constexpr double farther_than_surface = 3; // outlines are sought in so many times the reach
-constexpr int most_undone = 8;             // rounds of undoing, then all is undone
+constexpr int most_halvings = 3;
+constexpr int most_undone = 16; // rounds of undoing, then all is undone
 
 // Gauss-Legendre on an edge; directions of sight against it: two points for the weight cos^2.
 constexpr double places_on_edge[] = {0.2113248654, 0.7886751346};
@@ -149,7 +151,7 @@ class Undoing {
   public:
     Undoing(Mesh& mesh, const std::vector<glm::vec3>& normals)
         : mesh(mesh), before(mesh.positions), normals(normals),
-          crossed(find_self_intersections(mesh.positions, mesh.triangles)) {}
+          crossed(find_self_intersections(mesh.positions, mesh.triangles)), halved(before.size()) {}
 
     void run() {
         for (int round = 0; round < most_undone; ++round) {
@@ -161,10 +163,15 @@ class Undoing {
     }
 
   private:
+    /// Half of its corners' moves; at last, none. False where they have not moved.
     bool undo(std::uint32_t triangle) {
         bool any = false;
-        for (const std::uint32_t v : mesh.triangles[triangle])
-            if (mesh.positions[v] != before[v]) mesh.positions[v] = before[v], any = true;
+        for (const std::uint32_t v : mesh.triangles[triangle]) {
+            if (mesh.positions[v] == before[v]) continue;
+            mesh.positions[v] =
+                halved[v]++ < most_halvings ? 0.5 * (before[v] + mesh.positions[v]) : before[v];
+            any = true;
+        }
         return any;
     }
     bool undo_turned() {
@@ -190,6 +197,7 @@ class Undoing {
     const std::vector<glm::dvec3> before;
     const std::vector<glm::vec3>& normals;
     const std::vector<TrianglePair> crossed;
+    std::vector<int> halved; ///< by vertex: how often
 };
 
 void move(Mesh& mesh, const std::vector<glm::dvec3>& by, double sample) {
