@@ -36,7 +36,7 @@ template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
     number_edges();
     mark.assign(position.size(), 0);
     near_refused.assign(position.size(), 0);
-    guard = CrossingGuard(guarded(), ghost == none || out[ghost] == none);
+    if (!may_cross) guard = CrossingGuard(guarded(), ghost == none || out[ghost] == none);
 }
 
 template <int N> void Patch<N>::find_twins() {
@@ -213,7 +213,7 @@ template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
     if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
-    if (strictness[stage].may_cross) return true;
+    if (!is_guarded()) return true;
     crossed = crosses(c, to);
     return !crossed;
 }
@@ -312,7 +312,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    if (!strictness[stage].may_cross) guard.made_it(guarded(), change);
+    if (is_guarded()) guard.made_it(guarded(), change);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

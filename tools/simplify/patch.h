@@ -46,6 +46,7 @@ template <int N> class Patch {
     std::vector<Quadric<N>> quadrics;
     std::uint32_t ghost = none; ///< the vertex at infinity, the last
     bool keeps_volume = true;   ///< collapses keep the body's volume
+    bool may_cross = false;     ///< the surface may pass through itself: to be said before connect()
 
     /// Once the above are filled: `corners` names three vertices a triangle.
     void connect(std::vector<std::uint32_t> corners);
@@ -92,6 +93,7 @@ template <int N> class Patch {
     CrossingGuard::Surface guarded() const {
         return {std::span(position).first(std::min<std::size_t>(ghost, position.size())), at};
     }
+    bool is_guarded() const { return !may_cross && !strictness[stage].may_cross; }
     void refuse(std::uint32_t c);
     void remove_triangle(std::uint32_t c);
     void collapse(std::uint32_t c, const Placement& to, Step& step);
