@@ -15,6 +15,9 @@ constexpr std::size_t one_patch = 250'000;
 // Levels with fewer triangles are fitted (refit.cpp), which does better than keeping the volume, and best
 // from plain quadrics.
 constexpr std::size_t fitted_below = 33'000;
+// With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and every
+// collapse would have to be asked about.
+constexpr std::size_t guarded_below = 100'000;
 // From round to round. The cost of a collapse grows with the third power of what one triangle stands for.
 constexpr float price_grows = 4;
 constexpr double least_progress = 0.9; // of the triangles left by a round; else the price must rise faster
@@ -84,6 +87,7 @@ template <int N> class RoundsCollapser final : public Collapser {
     bool collapse_one() {
         Step step;
         whole.patch.keeps_volume = live.triangles > fitted_below;
+        if (live.triangles <= guarded_below) whole.patch.keep_from_crossing();
         while (!whole.patch.collapse_cheapest(step))
             if (!whole.patch.relax()) return false;
         steps.push_back(step);

@@ -36,7 +36,10 @@ template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
     number_edges();
     mark.assign(position.size(), 0);
     near_refused.assign(position.size(), 0);
-    if (!may_cross) guard = CrossingGuard(guarded(), ghost == none || out[ghost] == none);
+}
+
+template <int N> void Patch<N>::keep_from_crossing() {
+    if (!guard) guard.emplace(guarded(), ghost == none || out[ghost] == none);
 }
 
 template <int N> void Patch<N>::find_twins() {
@@ -270,7 +273,7 @@ template <int N> bool Patch<N>::crosses(std::uint32_t c, const glm::dvec3& to) {
     around(kept, [&](std::uint32_t h) {
         if (after(h) != removed && at[previous(h)] != removed) add(h, removed);
     });
-    return guard.crosses(guarded(), change);
+    return guard->crosses(guarded(), change);
 }
 
 template <int N> void Patch<N>::refuse(std::uint32_t c) {
@@ -312,7 +315,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    if (is_guarded()) guard.made_it(guarded(), change);
+    if (is_guarded()) guard->made_it(guarded(), change);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

@@ -8,6 +8,7 @@
 // boundaries (Dey, Edelsbrunner, Guha and Nekhayev 1999, "Topology preserving edge contraction").
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tools/mesh/mesh.h"
@@ -46,7 +47,6 @@ template <int N> class Patch {
     std::vector<Quadric<N>> quadrics;
     std::uint32_t ghost = none; ///< the vertex at infinity, the last
     bool keeps_volume = true;   ///< collapses keep the body's volume
-    bool may_cross = false;     ///< the surface may pass through itself: to be said before connect()
 
     /// Once the above are filled: `corners` names three vertices a triangle.
     void connect(std::vector<std::uint32_t> corners);
@@ -57,6 +57,8 @@ template <int N> class Patch {
     void queue_edges(float dearest);
     /// Collapses the cheapest edge that may; false when there is none.
     bool collapse_cheapest(Step& step);
+    /// From now on the surface must not pass through itself, where it does not yet.
+    void keep_from_crossing();
     /// Less strict from now on; false when there is no less.
     bool relax();
 
@@ -93,7 +95,7 @@ template <int N> class Patch {
     CrossingGuard::Surface guarded() const {
         return {std::span(position).first(std::min<std::size_t>(ghost, position.size())), at};
     }
-    bool is_guarded() const { return !may_cross && !strictness[stage].may_cross; }
+    bool is_guarded() const { return guard && !strictness[stage].may_cross; }
     void refuse(std::uint32_t c);
     void remove_triangle(std::uint32_t c);
     void collapse(std::uint32_t c, const Placement& to, Step& step);
@@ -104,7 +106,7 @@ template <int N> class Patch {
     std::vector<std::uint32_t> out;            ///< by vertex: a half-edge out of it
     std::vector<std::uint32_t> mark;           ///< by vertex: for the link condition
     std::uint32_t marks = 0;
-    CrossingGuard guard;
+    std::optional<CrossingGuard> guard;
     SurfaceChange change;            ///< the last that the guard was asked about
     std::vector<std::uint32_t> half; ///< by edge: one of its half-edges, none when it is gone
     /// Every edge that lives and costs no more than `most` is here, once, or refused. Costs only grow as

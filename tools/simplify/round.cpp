@@ -99,7 +99,6 @@ template <int N> struct Workplace {
         fill_vertices(made, surface, mesh, cube);
         made.patch.locked.assign(made.names.size(), 1);
         std::fill_n(made.patch.locked.begin(), owned, 0);
-        made.patch.may_cross = true; // triangles near the size of a sample hardly do, and asking costs a third more
         made.patch.connect(std::move(corners));
         return made;
     }
