@@ -12,8 +12,9 @@ constexpr std::size_t triangles_per_tile = 12'000;
 // What has fewer triangles is one patch. No number here depends on a target, so a level is the same whatever
 // else is asked for.
 constexpr std::size_t one_patch = 250'000;
-// Levels with fewer triangles are fitted (refit.cpp), which does better than keeping the volume, and best
-// from plain quadrics.
+// Levels with fewer triangles are fitted (refit.cpp), which does better than keeping the volume. Quadrics are
+// added up there: memoryless ones forget a small part, and where one is as large as a few triangles it goes
+// (docs/method.md, "Levels").
 constexpr std::size_t fitted_below = 33'000;
 // With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and every
 // collapse would have to be asked about.
@@ -88,6 +89,7 @@ template <int N> class RoundsCollapser final : public Collapser {
         Step step;
         whole.patch.keeps_volume = live.triangles > fitted_below;
         if (live.triangles <= guarded_below) whole.patch.keep_from_crossing();
+        whole.patch.memoryless = live.triangles > fitted_below;
         while (!whole.patch.collapse_cheapest(step))
             if (!whole.patch.relax()) return false;
         steps.push_back(step);

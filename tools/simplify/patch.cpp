@@ -34,6 +34,7 @@ template <int N> void Patch<N>::connect(std::vector<std::uint32_t> corners) {
     at = std::move(corners);
     find_twins();
     number_edges();
+    quadrics.resize(position.size());
     mark.assign(position.size(), 0);
     near_refused.assign(position.size(), 0);
 }
@@ -174,7 +175,7 @@ template <int N> glm::dvec3 Patch<N>::keep_volume(std::uint32_t c, const glm::dv
         if (after(h) != a && at[previous(h)] != a) add(h);
     });
     const double squared = dot(normal, normal);
-    if (open || squared < flat_enough * flat_enough * area * area) return point;
+    if (open || !(squared > flat_enough * flat_enough * area * area)) return point;
     return point + normal * (swept / squared);
 }
 
@@ -295,6 +296,30 @@ template <int N> void Patch<N>::remove_triangle(std::uint32_t c) {
     at[c] = at[n] = at[p] = none;
 }
 
+/// The planes of the triangles as they were go out of the quadrics around an edge that becomes a vertex at
+/// `to`, those of the triangles as they will be come in; quadrics[kept] has both ends' already. What
+/// attributes and boundaries say stays.
+template <int N> void Patch<N>::renew_planes(std::uint32_t c, const glm::dvec3& to) {
+    const std::uint32_t removed = at[c], kept = after(c);
+    for (const std::uint32_t v : {removed, kept})
+        around(v, [&](std::uint32_t h) {
+            const std::uint32_t x = at[next(h)], y = at[previous(h)], other = v == removed ? kept : removed;
+            if (x == ghost || y == ghost) return;
+            const bool goes = x == other || y == other;
+            if (goes && v == kept) return; // seen from the other end
+            PlaneQuadric change;
+            change.add_triangle(position[v], position[x], position[y], -1);
+            if (goes) {
+                quadrics[x == other ? y : x].plane += change;
+                quadrics[kept].plane += change; // once for each end
+                quadrics[kept].plane += change;
+                return;
+            }
+            change.add_triangle(to, position[x], position[y], 1);
+            for (const std::uint32_t w : {kept, x, y}) quadrics[w].plane += change;
+        });
+}
+
 template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, Step& step) {
     const std::uint32_t removed = at[c], kept = after(c), back = twin[c];
     const auto away = [&](std::uint32_t v) { return dot(source_at[v] - to.point, source_at[v] - to.point); };
@@ -306,6 +331,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     step = {kept, removed, source[kept], float(to.cost), to.point, at_boundary};
     ++since_retry;
     quadrics[kept] += quadrics[removed];
+    if (memoryless) renew_planes(c, to.point);
     position[kept] = to.point;
     std::uint32_t h = c;
     do {

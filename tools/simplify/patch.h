@@ -44,9 +44,10 @@ template <int N> class Patch {
     std::vector<glm::dvec3> position, source_at; ///< in a unit cube; source_at: where the source lies
     std::vector<std::uint32_t> source;
     std::vector<char> locked;
-    std::vector<Quadric<N>> quadrics;
-    std::uint32_t ghost = none; ///< the vertex at infinity, the last
-    bool keeps_volume = true;   ///< collapses keep the body's volume
+    std::vector<Quadric<N>> quadrics; ///< of a locked vertex: what collapses changed in its own
+    std::uint32_t ghost = none;       ///< the vertex at infinity, the last
+    bool keeps_volume = true;         ///< collapses keep the body's volume
+    bool memoryless = true;           ///< planes are those of the triangles as they now are
 
     /// Once the above are filled: `corners` names three vertices a triangle.
     void connect(std::vector<std::uint32_t> corners);
@@ -98,6 +99,7 @@ template <int N> class Patch {
     bool is_guarded() const { return guard && !strictness[stage].may_cross; }
     void refuse(std::uint32_t c);
     void remove_triangle(std::uint32_t c);
+    void renew_planes(std::uint32_t c, const glm::dvec3& to);
     void collapse(std::uint32_t c, const Placement& to, Step& step);
     void queue_again(std::uint32_t edge);
     void queue_at(std::uint32_t v);
@@ -109,9 +111,10 @@ template <int N> class Patch {
     std::optional<CrossingGuard> guard;
     SurfaceChange change;            ///< the last that the guard was asked about
     std::vector<std::uint32_t> half; ///< by edge: one of its half-edges, none when it is gone
-    /// Every edge that lives and costs no more than `most` is here, once, or refused. Costs only grow as
-    /// quadrics are added up, so a cost that is out of date is a lower bound: it is enough to take it anew
-    /// when the edge comes to the top.
+    /// Every edge that lives and costs no more than `most` is here, once, or refused. A cost is taken
+    /// anew when the edge comes to the top. Nearly all costs only grow as triangles do; one that has fallen
+    /// waits a little longer than it should: putting all edges near a collapse in order at once gains 0.3 %
+    /// of the error for a third more time.
     std::vector<Entry> heap;
     std::vector<char> refused;      ///< by edge: not allowed when its turn came
     std::vector<char> near_refused; ///< by vertex: it may have such an edge

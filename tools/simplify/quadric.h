@@ -2,7 +2,8 @@
 // where. Internal. Garland and Heckbert 1997, "Surface simplification using quadric error metrics"; with
 // attributes: Hoppe 1999, "New quadric metric for simplifying meshes with appearance attributes", in the form
 // that drops the attributes of the new vertex: for a place given, the best ones are a weighted mean, so they
-// need not be kept.
+// need not be kept. His section 5 has the memoryless quadrics that patch.h makes of the planes, after
+// Lindstrom and Turk 1998, "Fast and memory efficient polygonal simplification".
 #pragma once
 #include <algorithm>
 #include <array>
@@ -31,6 +32,12 @@ struct PlaneQuadric {
         const glm::dvec3 w = g * weight;
         xx += w.x * g.x, xy += w.x * g.y, xz += w.x * g.z, yy += w.y * g.y, yz += w.y * g.z, zz += w.z * g.z;
         x += w.x * d, y += w.y * d, z += w.z * d, c += weight * d * d;
+    }
+    /// `share` times the area of the triangle times the squared distance from its plane; none without area.
+    void add_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double share) {
+        const glm::dvec3 doubled_area = cross(b - a, c - a);
+        const double squared = dot(doubled_area, doubled_area);
+        if (squared > 0) add(doubled_area, -dot(doubled_area, a), share / 2 / std::sqrt(squared));
     }
     void operator+=(const PlaneQuadric& q) {
         xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;

@@ -118,7 +118,8 @@ template <int N> float find_price(const Workplace<N>& workplace) {
 
 template <int N> struct TileResult {
     std::vector<Step> steps;
-    std::vector<std::pair<std::uint32_t, Quadric<N>>> quadrics; ///< of the tile's own vertices that are left
+    std::vector<std::pair<std::uint32_t, Quadric<N>>>
+        quadrics; ///< of the vertices that are left; on the rim: changes
 };
 
 template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) {
@@ -132,7 +133,8 @@ template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) 
         result.steps.push_back(step);
     }
     for (std::size_t i = 0; i < made.patch.quadrics.size(); ++i)
-        if (!gone[i]) result.quadrics.emplace_back(made.names[i], made.patch.quadrics[i]);
+        if (!gone[i] && i != made.patch.ghost)
+            result.quadrics.emplace_back(made.names[i], made.patch.quadrics[i]);
     return result;
 }
 
@@ -158,23 +160,27 @@ template <int N> std::vector<Step> in_order(const std::vector<TileResult<N>>& re
     return ordered;
 }
 
-/// The quadrics of what is left: from the tiles, and of the rims, which no tile changed.
+/// The quadrics of what is left: from the tiles; on the rims, what they were and what the tiles changed.
 template <int N>
 void gather_quadrics(Surface<N>& left, const std::vector<std::uint32_t>& became, const Workplace<N>& from,
                      const std::vector<TileResult<N>>& results) {
     left.quadrics.resize(left.position.size());
-    tbb::parallel_for(std::size_t(0), results.size(), [&](std::size_t tile) {
-        for (const auto& [v, quadric] : results[tile].quadrics) left.quadrics[became[v]] = quadric;
-    });
     const auto at_rim = [&](std::uint32_t v) { return from.tiles.owner[v] == Tiles::shared; };
     if (from.surface.quadrics.empty()) {
         for (std::size_t t = 0; t < from.surface.triangles.size(); ++t)
             from.of_triangles.add(
                 t, [&](std::uint32_t v) { return at_rim(v) ? &left.quadrics[became[v]] : nullptr; });
-        return;
+    } else {
+        for (std::uint32_t v = 0; v < from.surface.ghost(); ++v)
+            if (at_rim(v)) left.quadrics[became[v]] = from.surface.quadrics[v];
     }
-    for (std::uint32_t v = 0; v < from.surface.ghost(); ++v)
-        if (at_rim(v)) left.quadrics[became[v]] = from.surface.quadrics[v];
+    tbb::parallel_for(std::size_t(0), results.size(), [&](std::size_t tile) {
+        for (const auto& [v, quadric] : results[tile].quadrics)
+            if (!at_rim(v)) left.quadrics[became[v]] = quadric;
+    });
+    for (const TileResult<N>& result : results) // a rim lies in several: in one order
+        for (const auto& [v, quadric] : result.quadrics)
+            if (at_rim(v)) left.quadrics[became[v]] += quadric;
 }
 
 } // namespace

@@ -72,9 +72,8 @@ template <int N> Quadric<N> TriangleQuadrics<N>::of(const Triangle& t) const {
     const glm::dvec3 doubled_area = cross(b - a, c - a);
     const double length = glm::length(doubled_area);
     if (length <= 0) return q;
-    const glm::dvec3 normal = doubled_area / length;
     q.weight = length / 2;
-    q.plane.add(normal, -dot(normal, a), q.weight);
+    q.plane.add_triangle(a, b, c, 1);
     if (N > 0) add_attributes(q, t, doubled_area);
     return q;
 }
