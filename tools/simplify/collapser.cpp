@@ -16,8 +16,8 @@ constexpr std::size_t one_patch = 250'000;
 // added up there: memoryless ones forget a small part, and where one is as large as a few triangles it goes
 // (docs/method.md, "Levels").
 constexpr std::size_t fitted_below = 33'000;
-// With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and every
-// collapse would have to be asked about.
+// With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and
+// every collapse would have to be asked about.
 constexpr std::size_t guarded_below = 100'000;
 // From round to round. The cost of a collapse grows with the third power of what one triangle stands for.
 constexpr float price_grows = 4;

@@ -236,7 +236,7 @@ class Fit {
         std::vector<std::uint32_t> waiting, still;
         for (std::uint32_t v = 0; v < wanted.size(); ++v)
             if (wanted[v] != mesh.positions[v]) waiting.push_back(v);
-        for (const double share : {1.0, 1.0, 0.5}) {
+        for (const double share : {1.0, 1.0, 0.5, 0.5, 0.25}) {
             still.clear();
             for (const std::uint32_t v : waiting)
                 if (!move_guarded(v, mesh.positions[v] + share * (wanted[v] - mesh.positions[v])))

@@ -83,7 +83,7 @@ CollapseLog finished(Collapser::Log&& from, const SurfaceWalk& walk, const std::
 }
 
 AttributeWeights weights_of(const SimplifyOptions& options) {
-    constexpr double fitted = 0.0001, as_collapsed = 0.0005;
+    constexpr double fitted = 0.00003, as_collapsed = 0.0006;
     return {options.colour_weight, options.normal_weight.value_or(options.refit ? fitted : as_collapsed)};
 }
 
