@@ -22,6 +22,13 @@ async function sides(tab, stage) {
 }
 
 const steps = {
+  async 'nothing sticks out of the panel'(tab) {
+    const inside = await tab.evaluate(`(() => {
+      const panel = document.querySelector('aside');
+      const right = panel.getBoundingClientRect().right - parseFloat(getComputedStyle(panel).paddingRight);
+      return [...panel.querySelectorAll('button')].map((b) => right - b.getBoundingClientRect().right); })()`);
+    assert.ok(inside.length > 5 && Math.min(...inside) > -0.5, `room to the right of each button: ${inside}`);
+  },
   async 'shows the texture first'(tab, stage) {
     await tab.click('#view-6');
     const [left, right] = await sides(tab, stage);
