@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tools/reconstruct/attributes.h"
+#include "tools/reconstruct/behind.h"
 #include "tools/reconstruct/sides.h"
 
 namespace glcast {
@@ -146,6 +147,16 @@ CapturedPoint CapturedSurface::seen_at(int axis, const glm::dvec3& at, const glm
 
 CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                                     double reach) const {
+    return find_from(from, along, facing, reach, false);
+}
+
+CapturedPoint CapturedSurface::look(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                                    double reach) const {
+    return find_from(from, along, facing, reach, true);
+}
+
+CapturedPoint CapturedSurface::find_from(const glm::dvec3& from, const glm::vec3& along,
+                                         const glm::vec3& facing, double reach, bool look_behind) const {
     if (!rays) return {};
     int order[3] = {0, 1, 2};
     std::sort(order, order + 3, [&](int a, int b) {
@@ -160,8 +171,25 @@ CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& alo
                                : axis == 1 ? Walk<1>(*rays, facing).run(start, along, reach, beside)
                                            : Walk<2>(*rays, facing).run(start, along, reach, beside);
             if (plane) return seen_at(axis, plane->at, plane->normal, plane->hit);
+            if (!look_behind || beside || axis != order[0]) continue;
+            if (const CapturedPoint there = behind(start, facing, reach); there.found) return there;
         }
     return {};
+}
+
+CapturedPoint CapturedSurface::behind(const glm::dvec3& start, const glm::vec3& facing, double reach) const {
+    const HitBehind there = hit_behind_closing(*rays, start, facing, reach);
+    if (!there) return {};
+    const AxisHits& hits = rays->axis[there.axis];
+    CapturedPoint out;
+    out.found = true;
+    glm::dvec3 at = start;
+    at[there.axis] = hits.depth[there.hit];
+    out.position = box.lo + (at + 0.5) * sample();
+    out.colour = unpack_colour(hits.colour[there.hit]);
+    const bool drawn = !geometric_normals && hits.normal[there.hit];
+    out.normal = drawn ? unpack_normal(hits.normal[there.hit]) : facing;
+    return out;
 }
 
 } // namespace glcast

@@ -40,8 +40,15 @@ class CapturedSurface {
     /// agrees.
     CapturedPoint find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                        double reach) const;
+    /// The same for a texture: where the surface closes an opening that nobody drew shut, what lies behind
+    /// it, as one sees it who looks in (behind.h).
+    CapturedPoint look(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                       double reach) const;
 
   private:
+    CapturedPoint find_from(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                            double reach, bool look_behind) const;
+    CapturedPoint behind(const glm::dvec3& start, const glm::vec3& facing, double reach) const; ///< samples
     CapturedPoint seen_at(int axis, const glm::dvec3& at, const glm::vec3& plane, std::uint32_t hit) const;
     std::shared_ptr<const Rays> rays;
     Box box;

@@ -12,6 +12,7 @@ struct Rays {
     int n = 0;
     std::array<AxisHits, 3> axis;
     Volume volume;                ///< filled samples; a sheet's own among them
+    bool complete = false;        ///< every surface along the lattice lines is known
     float half_thickness = 0.05f; ///< of a sheet without thickness, samples
 
     /// Pixel of the image along `a` that holds sample s.

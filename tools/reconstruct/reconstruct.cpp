@@ -46,6 +46,7 @@ void carve(Rays& rays, const ReconstructOptions& options, ReconstructReport& mad
         made.thin_samples = found.thin_samples;
         made.hidden_samples = found.hidden_samples;
         rays.volume = std::move(found.volume);
+        rays.complete = true;
     } else {
         Carved carved = carve_along_axes(rays, options.close_gaps);
         made.exterior = ExteriorRule::axes;
@@ -85,7 +86,7 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
     if (captured) mark_sides(rays);
     grid = {}; // what is done with goes, for large lattices fill the memory
-    rays.volume = {};
+    if (!captured) rays.volume = {};
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();
 

@@ -89,7 +89,7 @@ class Baker {
             unit_or(mix(mesh.normals[v[0]], mesh.normals[v[1]], mesh.normals[v[2]]), mesh.normals[v[0]]);
         const glm::vec3 facing =
             layout.triangle_normals[t] != glm::vec3(0) ? layout.triangle_normals[t] : normal;
-        const CapturedPoint seen = captured.find(point, normal, facing, reach);
+        const CapturedPoint seen = captured.look(point, normal, facing, reach);
         const std::size_t texel = std::size_t(y) * texture.colour.width + x;
         glm::vec3 colour = seen.colour;
         if (!seen.found)
