@@ -1,6 +1,7 @@
 # The capture engine. Linked into a preloaded library: no static constructors, no iostream.
 add_library(glcast_engine STATIC
     coincident.cpp
+    depth_offset.cpp
     engine.cpp
     engine_blend.cpp
     engine_box.cpp

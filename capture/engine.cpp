@@ -148,6 +148,7 @@ class Capture {
         pass.box = report.box;
         pass.axis = image.view.axis;
         pass.side = image.view.side;
+        pass.outermost = true;
 
         auto start = Clock::now();
         passes.run(pass, target);

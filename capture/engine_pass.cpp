@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
 #include "capture/engine_peel.h"
 #include "capture/forced_caps.h"
@@ -113,10 +114,32 @@ PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const Engine
     : gl(gl), draw(draw), eye_to_capture(options.eye_to_capture),
       mirrored_projection(options.mirrored_projection) {}
 
+/// The first pass of all is drawn again where it met several offsets, which it then knows.
 void PassRunner::run(const Pass& pass, const Target& target) {
+    draw_once(pass, target, !offsets_known);
+    if (!std::exchange(offsets_known, true) && offset_levels.several()) draw_once(pass, target, false);
+}
+
+PassFacts PassRunner::facts(const Pass& pass, const Target& target, bool learning) {
+    PassFacts facts;
+    facts.kind = pass.kind;
+    facts.depth = depth_function(pass);
+    facts.viewer_at_plus = pass.side == Side::plus;
+    facts.outermost = pass.outermost;
+    if (learning) facts.learnt = &offset_levels;
+    if (learning || !pass.offsets || !offset_levels.several()) return facts;
+    facts.levels = &offset_levels;
+    const double towards = pass.side == Side::plus ? 1 : -1;
+    facts.shift.projection = projection(pass);
+    facts.shift.clip_step = towards * 2 * offset_step / target.size() / (pass.far - pass.near);
+    facts.shift.slope_step = static_cast<float>(towards * offset_step);
+    return facts;
+}
+
+void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning) {
     set_state(pass, target);
     {
-        ForcedTable forced(gl, pass.kind, mirrored(pass), depth_function(pass));
+        ForcedTable forced(gl, facts(pass, target, learning), mirrored(pass));
         ++draw_count;
         draw(forced.table());
         own_program |= forced.state.saw_own_program;
@@ -153,10 +176,13 @@ void PassRunner::set_depth_rule(const Pass& pass) const {
     gl.StencilOp(GL_KEEP, count ? GL_INCR : GL_KEEP, equal || count ? GL_INCR : GL_KEEP);
 }
 
+glm::dmat4 PassRunner::projection(const Pass& pass) const {
+    return lattice_slab_projection(pass.box, pass.axis, pass.near, pass.far) * eye_to_capture;
+}
+
 void PassRunner::set_matrices(const Pass& pass) const {
     reset_matrix(gl, GL_PROJECTION, GL_PROJECTION_STACK_DEPTH);
-    const glm::dmat4 projection = lattice_slab_projection(pass.box, pass.axis, pass.near, pass.far);
-    gl.LoadMatrixd(glm::value_ptr(projection * eye_to_capture));
+    gl.LoadMatrixd(glm::value_ptr(projection(pass)));
     reset_matrix(gl, GL_MODELVIEW, GL_MODELVIEW_STACK_DEPTH);
 }
 

@@ -42,6 +42,8 @@ struct Pass {
     double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
     std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
+    bool offsets = true;                ///< coplanar surfaces are told apart (depth_offset.h)
+    bool outermost = false;             ///< of what is seen from outside; else there may be more in front
     const PeelShader* shader = nullptr; ///< for PassKind::peel
 };
 
@@ -58,6 +60,9 @@ class PassRunner {
     bool wants_blend_pass() const { return unblended; }
 
   private:
+    void draw_once(const Pass& pass, const Target& target, bool learning);
+    PassFacts facts(const Pass& pass, const Target& target, bool learning);
+    glm::dmat4 projection(const Pass& pass) const;
     void set_state(const Pass& pass, const Target& target) const;
     void set_depth_rule(const Pass& pass) const;
     void set_matrices(const Pass& pass) const;
@@ -70,6 +75,8 @@ class PassRunner {
     const bool mirrored_projection;
     int draw_count = 0;
     bool own_program = false, unblended = false;
+    OffsetLevels offset_levels;
+    bool offsets_known = false;
 };
 
 } // namespace glcast

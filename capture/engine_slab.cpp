@@ -37,6 +37,7 @@ class AxisSlabs {
         pass.axis = task.axis;
         pass.viewer = Side::minus;
         pass.only = part;
+        pass.offsets = false; // a hit would be seen at one depth by one side, at another by the other
     }
 
     AxisLayers run(const LayerSink& sink) {

@@ -30,6 +30,9 @@ void note_cap(GLenum cap, bool on) {
     case GL_DEPTH_TEST:
         fragments.depth_test = on, state().apply_order();
         break;
+    case GL_POLYGON_OFFSET_FILL:
+        program().offset.enabled = on, state().apply_fragments();
+        break;
     case GL_STENCIL_TEST:
         fragments.stencil_test = on, state().apply_order();
         break;
@@ -131,11 +134,24 @@ void APIENTRY blend_equation_separate(GLenum equation, GLenum equation_alpha) {
 void APIENTRY depth_func(GLenum function) {
     program().fragments.depth_function = function;
     state().apply_order();
+    state().apply_offset();
 }
 void APIENTRY depth_mask(GLboolean on) {
     program().fragments.depth_mask = on;
     state().apply_order();
 }
+void APIENTRY polygon_offset(GLfloat factor, GLfloat units) {
+    program().offset.factor = factor, program().offset.units = units;
+    state().apply_fragments();
+}
+/// Its bias is depth, 0..1.
+void APIENTRY polygon_offset_ext(GLfloat factor, GLfloat bias) { polygon_offset(factor, bias * (1 << 24)); }
+void APIENTRY polygon_offset_clamp(GLfloat factor, GLfloat units, GLfloat) { polygon_offset(factor, units); }
+void APIENTRY depth_range(GLdouble near, GLdouble far) {
+    program().offset.near = near, program().offset.far = far;
+    state().apply_fragments();
+}
+void APIENTRY depth_range_f(GLfloat near, GLfloat far) { depth_range(near, far); }
 void APIENTRY stencil_func(GLenum function, GLint, GLuint) {
     program().fragments.stencil_function = function;
     state().apply_order();

@@ -47,7 +47,7 @@ constexpr CapRule rules[] = {
     {GL_DEPTH_CLAMP, 1, false, off, off, "what is outside the box is not in it"},
     {GL_SCISSOR_TEST, 1, false, off, off, "all of the lattice"},
     {GL_CULL_FACE, 1, false, off, off, "both sides of every polygon"},
-    {GL_POLYGON_OFFSET_FILL, 1, false, off, off, "exact depth"},
+    {GL_POLYGON_OFFSET_FILL, 1, false, track, track, "exact depth; which of coplanar surfaces is seen"},
     {GL_POLYGON_OFFSET_LINE, 1, false, off, off, "exact depth"},
     {GL_POLYGON_OFFSET_POINT, 1, false, off, off, "exact depth"},
     {GL_POLYGON_STIPPLE, 1, false, off, off, "whole polygons"},

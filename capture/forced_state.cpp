@@ -16,6 +16,10 @@ GLenum mapped_material(GLenum name) {
 
 namespace {
 
+constexpr int unknown_shift = -1000;
+
+GLenum nearer_or_equal(const PassFacts& pass) { return pass.viewer_at_plus ? GL_GEQUAL : GL_LEQUAL; }
+
 void set_cap(const GlTable& gl, GLenum cap, bool on) { on ? gl.Enable(cap) : gl.Disable(cap); }
 
 void restore_colour_buffer(ForcedState::Values& now, const ForcedState::Values& old) {
@@ -54,6 +58,9 @@ void restore(ForcedState::Values& now, const ForcedState::Values& old, GLbitfiel
         fragments.depth_function = old_fragments.depth_function;
         fragments.depth_mask = old_fragments.depth_mask;
     }
+    if (mask & (GL_ENABLE_BIT | GL_POLYGON_BIT)) now.offset.enabled = old.offset.enabled;
+    if (mask & GL_POLYGON_BIT) now.offset.factor = old.offset.factor, now.offset.units = old.offset.units;
+    if (mask & GL_VIEWPORT_BIT) now.offset.near = old.offset.near, now.offset.far = old.offset.far;
     if (mask & GL_STENCIL_BUFFER_BIT) fragments.stencil_function = old_fragments.stencil_function;
     if (mask & GL_COLOR_BUFFER_BIT) restore_colour_buffer(now, old);
     if (mask & GL_TRANSFORM_BIT) now.matrix_mode = old.matrix_mode;
@@ -61,8 +68,8 @@ void restore(ForcedState::Values& now, const ForcedState::Values& old, GLbitfiel
 
 } // namespace
 
-ForcedState::ForcedState(const GlTable& real, PassKind kind, GLenum depth)
-    : real(real), kind(kind), depth(depth) {
+ForcedState::ForcedState(const GlTable& real, const PassFacts& pass)
+    : real(real), pass(pass), kind(pass.kind), depth(pass.depth) {
     GLint limit = 0;
     real.GetIntegerv(GL_MAX_ATTRIB_STACK_DEPTH, &limit);
     if (limit > 0) stack_limit = static_cast<std::size_t>(limit);
@@ -77,6 +84,7 @@ void ForcedState::pop() {
     if (stack.empty()) return;
     restore(program, stack.back().values, stack.back().mask);
     stack.pop_back();
+    shifted = unknown_shift;
     apply();
 }
 
@@ -115,6 +123,11 @@ void ForcedState::order_by_depth() const {
 /// The same where it is known: the stencil buffer counts what was drawn there, as far as it is in the way of
 /// what comes after it.
 void ForcedState::order_by_stencil() const {
+    if (kind == PassKind::blend) real.DepthFunc(mixes_over_others() ? nearer_or_equal(pass) : depth);
+    if (mixes_over_others()) {
+        real.StencilFunc(GL_ALWAYS, 0, ~0u);
+        return real.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    }
     const Coincidence rule = coincidence(program.fragments);
     const bool writes_depth = program.fragments.depth_test && program.fragments.depth_mask;
     bool over = !rule.yields, counts = true;
@@ -142,9 +155,41 @@ void ForcedState::apply_order() {
     real.ColorMask(mask.red, mask.green, mask.blue, mask.alpha);
 }
 
+double ForcedState::level() const {
+    const GLenum function = program.fragments.depth_function;
+    return OffsetLevels::level_of(program.offset, function == GL_GREATER || function == GL_GEQUAL);
+}
+
+void ForcedState::note_faces() {
+    if (pass.learnt) pass.learnt->note(level());
+}
+
+/// A decal that blends, over whatever is below it. Where a stencil test keeps it is not known.
+bool ForcedState::mixes_over_others() const {
+    if (kind != PassKind::blend || steps_nearer() <= 0) return false;
+    FragmentState passing = program.fragments;
+    passing.depth_function = GL_LEQUAL;
+    return passing.blends() && !coincidence(passing).yields;
+}
+
+int ForcedState::steps_nearer() const {
+    const int steps = pass.levels ? pass.levels->steps(level()) : 0;
+    if (steps == 0 || !program.fragments.blends()) return steps;
+    if (!pass.outermost) return 0;
+    return kind == PassKind::blend ? steps : -1;
+}
+
+void ForcedState::apply_offset() {
+    const int steps = steps_nearer();
+    if (!pass.levels || steps == shifted) return;
+    shifted = steps;
+    pass.shift.apply(real, steps, program.matrix_mode);
+}
+
 void ForcedState::apply_fragments() {
     apply_alpha();
     apply_order();
+    apply_offset();
 }
 
 void ForcedState::cleared(GLbitfield buffers) {

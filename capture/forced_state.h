@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "capture/coincident.h"
+#include "capture/depth_offset.h"
 #include "capture/gl/gl_table.h"
 
 namespace glcast {
@@ -17,13 +18,23 @@ enum class PassKind {
 /// Alpha that the normal pass writes: lit, drawn with lighting off, nothing drawn.
 inline constexpr float lit_alpha = 1.0f, unlit_alpha = 0.5f, missed_alpha = 0.0f;
 
+/// What a pass knows beside its kind. `depth`: the depth function that it has set; with GL_EQUAL the stencil
+/// buffer counts what was drawn.
+struct PassFacts {
+    PassKind kind = PassKind::colour;
+    GLenum depth = GL_LESS;
+    bool viewer_at_plus = false; ///< the greater depth is the nearer
+    bool outermost = false;      ///< no surface is in front of what is drawn
+    DepthShift shift;
+    const OffsetLevels* levels = nullptr; ///< of the frame; null where offsets count for nothing
+    OffsetLevels* learnt = nullptr;       ///< where they are noted, if they are
+};
+
 /// The program's values of the state that is tracked, and GL's attribute stack of them. Everything else that
 /// the forced table keeps lives in GL itself, where PushAttrib and PopAttrib take care of it.
 class ForcedState {
   public:
-    /// `depth`: the depth function that the pass has set. With GL_EQUAL the stencil buffer counts what was
-    /// drawn.
-    ForcedState(const GlTable& real, PassKind kind, GLenum depth);
+    ForcedState(const GlTable& real, const PassFacts& pass);
 
     /// One set of values, at GL's defaults.
     struct Values {
@@ -32,6 +43,7 @@ class ForcedState {
         GLenum alpha_function = GL_ALWAYS;
         GLclampf alpha_reference = 0;
         FragmentState fragments;
+        OffsetState offset;
         struct {
             GLboolean red = GL_TRUE, green = GL_TRUE, blue = GL_TRUE, alpha = GL_TRUE;
         } colour_mask;
@@ -50,12 +62,15 @@ class ForcedState {
 
     void apply_alpha() const;           ///< alpha test, from alpha test, blending and what is shown
     void apply_order();                 ///< which of the fragments at one depth stay, and how they mix
-    void apply_fragments();             ///< both
+    void apply_offset();                ///< how near its level is drawn
+    void apply_fragments();             ///< all three
     void apply_colour_material() const; ///< colour pass only
     void apply_lighting() const;        ///< normal pass only: white when lit, black when not
     void apply();                       ///< all of them
     /// The program clears: what that means where depths are equal.
     void cleared(GLbitfield buffers);
+    /// The program draws faces, or may.
+    void note_faces();
 
   private:
     struct Saved {
@@ -65,10 +80,15 @@ class ForcedState {
     bool shows() const;
     void order_by_depth() const;
     void order_by_stencil() const;
+    int steps_nearer() const;
+    bool mixes_over_others() const;
+    double level() const;
 
     const GlTable& real;
-    PassKind kind;
-    GLenum depth;
+    const PassFacts pass;
+    const PassKind kind;
+    const GLenum depth;
+    int shifted = 0; ///< steps that are in force
     std::size_t stack_limit = 16;
     std::vector<Saved> stack;
 };

@@ -1,5 +1,7 @@
 #include "capture/forced_table.h"
 
+#include <tuple>
+
 #include "capture/forced_calls.h"
 
 namespace glcast {
@@ -14,6 +16,18 @@ template <auto Member, class R, class... Args> struct Stand<Member, R (APIENTRYP
     static R APIENTRY in_unless_projection(Args... args) {
         const ForcedTable& self = ForcedTable::current();
         if (self.state.program.matrix_mode != GL_PROJECTION) (self.real.*Member)(args...);
+    }
+};
+template <auto Member, class Function = decltype(Member)> struct Watched;
+template <auto Member, class R, class... Args> struct Watched<Member, R (APIENTRYP GlTable::*)(Args...)> {
+    static R APIENTRY call(Args... args) {
+        ForcedTable::current().state.note_faces();
+        return (ForcedTable::current().real.*Member)(args...);
+    }
+    static R APIENTRY call_faces(Args... args) {
+        const GLenum mode = std::get<0>(std::tie(args...)); // points and lines of all kinds are less
+        if (mode >= GL_TRIANGLES) ForcedTable::current().state.note_faces();
+        return (ForcedTable::current().real.*Member)(args...);
     }
 };
 template <auto Member, class Function = decltype(Member)> struct NamedStack;
@@ -36,12 +50,19 @@ template <auto... Members> void unless_projection(GlTable& table) {
 template <auto... Members> void unless_named_projection(GlTable& table) {
     ((table.*Members = table.*Members ? NamedStack<Members>::call : nullptr), ...);
 }
+/// Draws; of those that name what they draw, faces.
+template <auto... Members> void watch(GlTable& table) {
+    ((table.*Members = table.*Members ? Watched<Members>::call : nullptr), ...);
+}
+template <auto... Members> void watch_faces(GlTable& table) {
+    ((table.*Members = table.*Members ? Watched<Members>::call_faces : nullptr), ...);
+}
 template <auto Function, auto... Members> void replace(GlTable& table) {
     ((table.*Members = table.*Members ? Function : nullptr), ...);
 }
 
-/// Peel passes force what colour passes do, and more.
-enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4 };
+/// Peel passes force what colour passes do, and more. The first pass of all learns what there is.
+enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4, in_learning = 8 };
 
 struct Rule {
     Passes passes;
@@ -59,9 +80,11 @@ constexpr Rule rules[] = {
     {in_both, drop<&G::Viewport, &G::ViewportArrayv, &G::ViewportIndexedf, &G::ViewportIndexedfv>, "n x n"},
     {in_both, drop<&G::Scissor, &G::ScissorArrayv, &G::ScissorIndexed, &G::ScissorIndexedv>,
      "all of the lattice"},
-    {in_both,
-     drop<&G::DepthRange, &G::DepthRangef, &G::DepthRangefOES, &G::DepthRangedNV, &G::DepthRangeArrayv,
-          &G::DepthRangeIndexed, &G::ClipControl>,
+    {in_both, replace<forced::depth_range, &G::DepthRange, &G::DepthRangedNV>,
+     "depth runs 0..1 through the box; the program's among coplanar surfaces"},
+    {in_both, replace<forced::depth_range_f, &G::DepthRangef, &G::DepthRangefOES>,
+     "depth runs 0..1 through the box; the program's among coplanar surfaces"},
+    {in_both, drop<&G::DepthRangeArrayv, &G::DepthRangeIndexed, &G::ClipControl>,
      "depth runs 0..1 through the box"},
     {in_both, drop<&G::DepthBoundsEXT, &G::DepthBoundsdNV>, "one test for each side"},
     {in_both, replace<forced::depth_func, &G::DepthFunc>,
@@ -75,9 +98,12 @@ constexpr Rule rules[] = {
           &G::StencilMask, &G::StencilMaskSeparate, &G::ActiveStencilFaceEXT>,
      "it tells which of the fragments at one depth count"},
     {in_both, drop<&G::PolygonMode, &G::EdgeFlag, &G::EdgeFlagv>, "filled; points while the box is found"},
-    {in_both,
-     drop<&G::PolygonOffset, &G::PolygonOffsetEXT, &G::PolygonOffsetClamp, &G::PolygonOffsetClampEXT>,
-     "exact depth"},
+    {in_both, replace<forced::polygon_offset, &G::PolygonOffset>,
+     "exact depth; which of coplanar surfaces is seen"},
+    {in_both, replace<forced::polygon_offset_ext, &G::PolygonOffsetEXT>,
+     "exact depth; which of coplanar surfaces is seen"},
+    {in_both, replace<forced::polygon_offset_clamp, &G::PolygonOffsetClamp, &G::PolygonOffsetClampEXT>,
+     "exact depth; which of coplanar surfaces is seen"},
     {in_both,
      drop<&G::SampleCoverage, &G::SampleCoverageARB, &G::SampleMaski, &G::SampleMaskSGIS, &G::SampleMaskEXT,
           &G::MinSampleShading, &G::MinSampleShadingARB>,
@@ -225,6 +251,26 @@ constexpr Rule rules[] = {
      drop<&G::BindTextures, &G::BindTextureUnit, &G::BindMultiTextureEXT, &G::BindSampler, &G::BindSamplers>,
      "our texture stays bound"},
 
+    // Which offsets faces are drawn with.
+    {in_learning,
+     watch_faces<&G::Begin, &G::DrawArrays, &G::DrawArraysEXT, &G::DrawElements, &G::DrawRangeElements,
+                 &G::DrawRangeElementsEXT, &G::DrawElementsBaseVertex, &G::DrawRangeElementsBaseVertex>,
+     "an offset that nothing is drawn with is none"},
+    {in_learning,
+     watch_faces<&G::DrawArraysInstanced, &G::DrawArraysInstancedARB, &G::DrawArraysInstancedEXT,
+                 &G::DrawArraysInstancedBaseInstance, &G::DrawElementsInstanced, &G::DrawElementsInstancedARB,
+                 &G::DrawElementsInstancedEXT, &G::DrawElementsInstancedBaseVertex,
+                 &G::DrawElementsInstancedBaseInstance, &G::DrawElementsInstancedBaseVertexBaseInstance,
+                 &G::DrawArraysIndirect, &G::DrawElementsIndirect>,
+     "an offset that nothing is drawn with is none"},
+    {in_learning,
+     watch_faces<&G::MultiDrawArrays, &G::MultiDrawArraysEXT, &G::MultiDrawElements, &G::MultiDrawElementsEXT,
+                 &G::MultiDrawElementsBaseVertex, &G::EvalMesh2>,
+     "an offset that nothing is drawn with is none"},
+    {in_learning,
+     watch<&G::Rectd, &G::Rectf, &G::Recti, &G::Rects, &G::Rectdv, &G::Rectfv, &G::Rectiv, &G::Rectsv>,
+     "an offset that nothing is drawn with is none"},
+
     // Where tracked state comes from.
     {in_both, replace<forced::enable, &G::Enable>, "table of caps"},
     {in_both, replace<forced::disable, &G::Disable>, "table of caps"},
@@ -236,13 +282,14 @@ constexpr Rule rules[] = {
 
 } // namespace
 
-ForcedTable::ForcedTable(const GlTable& real, PassKind kind, bool mirrored, GLenum depth)
-    : real(real), kind(kind), mirrored(mirrored), state(real, kind, depth), forced(real) {
-    const unsigned pass = kind == PassKind::normal ? in_normal
-                          : kind == PassKind::peel ? in_colour | in_peel
-                                                   : in_colour;
+ForcedTable::ForcedTable(const GlTable& real, const PassFacts& pass, bool mirrored)
+    : real(real), kind(pass.kind), mirrored(mirrored), state(real, pass), forced(real) {
+    unsigned passes = kind == PassKind::normal ? in_normal
+                      : kind == PassKind::peel ? in_colour | in_peel
+                                               : in_colour;
+    if (pass.learnt) passes |= in_learning;
     for (const Rule& rule : rules)
-        if (rule.passes & pass) rule.install(forced);
+        if (rule.passes & passes) rule.install(forced);
     current_table = this;
     state.apply();
     real.FrontFace(mirrored ? GL_CW : GL_CCW);

@@ -11,8 +11,8 @@ namespace glcast {
 class ForcedTable {
   public:
     /// `mirrored`: images of this view are mirror images of what a viewer on its side would see, so winding
-    /// is reversed. `depth`: the depth function that is set.
-    ForcedTable(const GlTable& real, PassKind kind, bool mirrored, GLenum depth);
+    /// is reversed.
+    ForcedTable(const GlTable& real, const PassFacts& pass, bool mirrored);
     ~ForcedTable();
     ForcedTable(const ForcedTable&) = delete;
     ForcedTable& operator=(const ForcedTable&) = delete;
