@@ -41,10 +41,10 @@ template <int N> class RoundsCollapser final : public Collapser {
 
     bool run_rounds(const Limit& limit) override {
         for (; !meets(limit) && (taken < steps.size() || !in_one_patch);)
-            if (taken < steps.size())
-                take(steps[taken++]);
-            else
+            if (taken == steps.size())
                 go_on();
+            else
+                take_steps(limit);
         return in_one_patch;
     }
 
@@ -75,10 +75,31 @@ template <int N> class RoundsCollapser final : public Collapser {
         return live.triangles <= limit.triangles && live.edges <= limit.edges;
     }
 
-    void take(const Step& step) {
+    /// Until the limit is kept. They are put in order only where it matters: a level or a log lies among them.
+    void take_steps(const Limit& limit) {
+        if (!in_order && !keep_log) {
+            const Limit before = live;
+            for (const Step& step : steps) count(step);
+            if (!meets(limit)) {
+                taken = steps.size();
+                return;
+            }
+            made -= steps.size();
+            live = before;
+        }
+        if (!in_order) steps = by_cost(steps);
+        in_order = true;
+        while (!meets(limit) && taken < steps.size()) take(steps[taken++]);
+    }
+
+    void count(const Step& step) {
         live.triangles -= step.at_boundary ? 1 : 2;
         live.edges -= step.at_boundary ? 2 : 3;
         ++made;
+    }
+
+    void take(const Step& step) {
+        count(step);
         if (!keep_log) return;
         log.collapses.push_back(
             {base.id[step.kept], base.id[step.removed], cube.outside(step.point), {}, {}});
@@ -122,6 +143,7 @@ template <int N> class RoundsCollapser final : public Collapser {
         idle = idled ? idle + 1 : 0;
         price = options.price * (idled ? price_leaps : price_grows);
         steps = std::move(next.steps);
+        in_order = false;
     }
 
     const Mesh& mesh;
@@ -136,6 +158,7 @@ template <int N> class RoundsCollapser final : public Collapser {
     Surface<N> base;         ///< before `steps`
     std::vector<Step> steps; ///< in names of `base`
     std::size_t taken = 0;   ///< of them
+    bool in_order = true;    ///< by cost
     Round<N> next;           ///< what all steps of a round leave
     unsigned turn = 0;
     float price = 0;

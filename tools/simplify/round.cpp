@@ -126,7 +126,9 @@ template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) 
     TileResult<N> result;
     made.patch.queue_edges(price);
     std::vector<char> gone(made.names.size(), 0);
+    float dearest = 0; // so far: none comes before those that the tile made earlier
     for (Step step; made.patch.collapse_cheapest(step);) {
+        step.cost = dearest = std::max(dearest, step.cost);
         gone[step.removed] = 1;
         step.kept = made.names[step.kept];
         step.removed = made.names[step.removed];
@@ -138,26 +140,17 @@ template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) 
     return result;
 }
 
-/// By cost, but never one of a tile before those that the tile made earlier.
-template <int N> std::vector<Step> in_order(const std::vector<TileResult<N>>& results) {
-    std::vector<Step> steps;
-    std::vector<std::pair<float, std::uint32_t>> keys;
-    std::size_t count = 0;
-    for (const TileResult<N>& result : results) count += result.steps.size();
-    steps.reserve(count), keys.reserve(count);
-    for (const TileResult<N>& result : results) {
-        float dearest = 0;
-        for (const Step& step : result.steps) {
-            dearest = std::max(dearest, step.cost);
-            keys.emplace_back(dearest, std::uint32_t(steps.size()));
-            steps.push_back(step);
-        }
-    }
-    tbb::parallel_sort(keys.begin(), keys.end());
-    std::vector<Step> ordered(steps.size());
-    tbb::parallel_for(std::size_t(0), keys.size(),
-                      [&](std::size_t k) { ordered[k] = steps[keys[k].second]; });
-    return ordered;
+template <int N> std::vector<Step> all_steps(std::vector<TileResult<N>>& results) {
+    std::vector<std::size_t> first(results.size() + 1, 0);
+    for (std::size_t tile = 0; tile < results.size(); ++tile)
+        first[tile + 1] = first[tile] + results[tile].steps.size();
+    std::vector<Step> steps(first.back());
+    tbb::parallel_for(std::size_t(0), results.size(), [&](std::size_t tile) {
+        std::copy(results[tile].steps.begin(), results[tile].steps.end(),
+                  steps.begin() + std::ptrdiff_t(first[tile]));
+        results[tile].steps = {};
+    });
+    return steps;
 }
 
 /// The quadrics of what is left: from the tiles; on the rims, what they were and what the tiles changed.
@@ -184,6 +177,18 @@ void gather_quadrics(Surface<N>& left, const std::vector<std::uint32_t>& became,
 }
 
 } // namespace
+
+std::vector<Step> by_cost(const std::vector<Step>& steps) {
+    std::vector<std::pair<float, std::uint32_t>> keys(steps.size());
+    tbb::parallel_for(std::size_t(0), steps.size(), [&](std::size_t k) {
+        keys[k] = {steps[k].cost, std::uint32_t(k)};
+    });
+    tbb::parallel_sort(keys.begin(), keys.end());
+    std::vector<Step> ordered(steps.size());
+    tbb::parallel_for(std::size_t(0), keys.size(),
+                      [&](std::size_t k) { ordered[k] = steps[keys[k].second]; });
+    return ordered;
+}
 
 template <int N>
 NamedPatch<N> whole_patch(const Surface<N>& surface, const Mesh& mesh, const UnitCube& cube,
@@ -223,7 +228,7 @@ Round<N> collapse_tiles(const Surface<N>& surface, const Mesh& mesh, const UnitC
         },
         tbb::simple_partitioner());
     Round<N> round;
-    round.steps = in_order(results);
+    round.steps = all_steps(results);
     round.left = after_steps(surface, round.steps, round.became);
     gather_quadrics(round.left, round.became, workplace, results);
     return round;

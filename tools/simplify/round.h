@@ -17,10 +17,13 @@ NamedPatch<N> whole_patch(const Surface<N>& surface, const Mesh& mesh, const Uni
                           const TriangleQuadrics<N>& of_triangles);
 
 template <int N> struct Round {
-    std::vector<Step> steps; ///< in names of the surface: by cost, each tile's in their order
+    std::vector<Step> steps; ///< in names of the surface, tile by tile
     Surface<N> left;
     std::vector<std::uint32_t> became; ///< for every vertex of the surface, which one of `left`
 };
+
+/// All steps of a round by cost, each tile's in their order.
+std::vector<Step> by_cost(const std::vector<Step>& steps);
 
 struct RoundOptions {
     std::size_t triangles_per_tile = 0;
