@@ -16,8 +16,8 @@ constexpr double sample = 2.04 / n, half = 0.6, slit_at = 0.004, slit = 2 * samp
 const glm::vec3 up(0, 0, 1);
 
 /// Green deep inside, red outside.
-Source painted(const BodyPtr& body, bool layers = true) {
-    auto images = layers ? cast_layers(*body, test_box, n) : cast_body(*body, test_box, n);
+Source painted(const BodyPtr& body, bool layers = true, const NormalEdit& edit = {}) {
+    auto images = layers ? cast_layers(*body, test_box, n, edit) : cast_body(*body, test_box, n, edit);
     paint(images, test_box, [](const glm::dvec3& at, const glm::vec3&) {
         const glm::dvec3 out = glm::abs(at);
         return std::max({out.x, out.y, out.z}) > half - 0.05 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
@@ -96,6 +96,31 @@ TEST(Closing, NeedsAllLayers) {
     for (const glm::dvec3& at : along_slit(0))
         EXPECT_EQ(source.captured.look(at, up, up, reach).position,
                   source.captured.find(at, up, up, reach).position);
+}
+
+/// Also normals that the program has the wrong way round.
+TEST(Closing, IsSeenInTheVertices) {
+    const NormalEdit inward = [](const glm::dvec3& at, const glm::dvec3& normal) {
+        return std::abs(at.z) < 0.01 ? -normal : normal;
+    };
+    const Source source = painted(slit_block(), true, inward);
+    std::size_t closing = 0, beside = 0;
+    for (std::size_t v = 0; v < source.full.positions.size(); ++v) {
+        const glm::dvec3& at = source.full.positions[v];
+        if (at.z < half - 3 * sample || std::abs(at.x) > 0.5 || std::abs(at.y) > 0.5) continue;
+        const double off = std::abs(at.y - slit_at);
+        if (off < 0.45 * slit) {
+            EXPECT_LT(glm::distance(source.full.colours[v], glm::vec3(0, 1, 0)), 1e-3f);
+            EXPECT_LT(glm::distance(source.full.normals[v], -up), 1e-3f);
+            ++closing;
+        } else if (off > 0.6 * slit) {
+            EXPECT_LT(glm::distance(source.full.colours[v], glm::vec3(1, 0, 0)), 1e-3f);
+            EXPECT_LT(glm::distance(source.full.normals[v], up), 1e-3f);
+            ++beside;
+        }
+    }
+    EXPECT_GT(closing, 40u);
+    EXPECT_GT(beside, 1000u);
 }
 
 TEST(Closing, IsSeenInTheTextureOfALevel) {

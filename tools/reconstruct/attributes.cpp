@@ -6,6 +6,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "tools/reconstruct/behind.h"
+
 namespace glcast {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr float agreement = 0.3f;        // samples between a vertex and the pla
 constexpr double reach = 8;              // samples along a ray to a hit that may still agree
 constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a sheet
 constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
+constexpr double reach_of_closing = 2;   // samples between a vertex and the closing that it belongs to
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
 struct Pixel {
@@ -145,6 +148,14 @@ void spread_colours(Mesh& mesh, std::vector<std::uint8_t>& known) {
     } while (!reached.empty());
 }
 
+/// What one sees who looks in where a vertex closes an opening.
+Attribute behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal) {
+    const HitBehind there = hit_behind_closing(rays, at, surface_normal, reach_of_closing);
+    if (!there) return {};
+    const AxisHits& hits = rays.axis[there.axis];
+    return {unpack_colour(hits.colour[there.hit]), drawn_normal(hits, there.hit), surface_normal, true};
+}
+
 std::array<std::uint32_t, 4> square_corners(const Triangle& s, const Triangle& t) {
     const auto fourth =
         std::find_if(t.begin(), t.end(), [&](auto v) { return std::find(s.begin(), s.end(), v) == s.end(); });
@@ -210,14 +221,16 @@ std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals
     std::vector<std::uint8_t> known(mesh.positions.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, known.size(), 2048), [&](const auto& range) {
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
-            const Attribute found = sample_point(rays, mesh.positions[v], mesh.normals[v]);
+            Attribute found = sample_point(rays, mesh.positions[v], mesh.normals[v]);
+            const bool seen = found.found;
+            if (!seen) found = behind_closing(rays, mesh.positions[v], mesh.normals[v]);
             if (!found.found) continue;
-            known[v] = 1;
+            known[v] = seen ? 1 : 2;
             mesh.colours[v] = found.colour;
             if (!geometric_normals && found.normal != glm::vec3(0)) mesh.normals[v] = found.normal;
         }
     });
-    const std::size_t missing = std::count(known.begin(), known.end(), 0);
+    const std::size_t missing = known.size() - std::size_t(std::count(known.begin(), known.end(), 1));
     if (missing) spread_colours(mesh, known);
     return missing;
 }

@@ -18,7 +18,8 @@ struct Attribute {
 Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal);
 
 /// Fills normals (unit) and colours of a contour; positions in samples. Returns how many vertices no pixel
-/// agrees with: their colour is the nearest one along the surface, their normal that of the surface.
+/// agrees with: where they close an opening, they have colour and normal of what lies behind it (behind.h);
+/// else their colour is the nearest one along the surface, their normal that of the surface.
 std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals);
 
 /// The same for the paper's squares (triangles 2 q and 2 q + 1 are square q): a square has the colour and

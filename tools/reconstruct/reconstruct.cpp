@@ -86,12 +86,12 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);
     if (captured) mark_sides(rays);
     grid = {}; // what is done with goes, for large lattices fill the memory
-    if (!captured) rays.volume = {};
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();
 
     made.vertices_without_pixel = cubes ? sample_squares(rays, mesh, options.geometric_normals)
                                         : sample_vertices(rays, mesh, options.geometric_normals);
+    if (!captured) rays.volume = {};
     to_capture_frame(mesh, frame);
     made.attribute_seconds = watch.lap();
 

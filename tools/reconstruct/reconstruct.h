@@ -43,7 +43,7 @@ struct ReconstructReport {
     std::size_t unsupported_crossings = 0; ///< of these, how many no ray saw
     double unsupported_area_share = 0;     ///< of the surface's area, what lies about such crossings
     std::size_t vertices_without_pixel =
-        0; ///< colour of a neighbour on the surface, normal of the surface itself
+        0; ///< colour of a neighbour on the surface, normal of the surface itself, or those behind a closing
     MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };
