@@ -163,6 +163,18 @@ TEST(Bake, SharpEdgesKeepTheColoursAndNormalsOfTheirSides) {
     EXPECT_LT(colour / count, 0.01);
 }
 
+TEST(Bake, ABodyWithAllNormalsInwardKeepsThem) {
+    const Source source = make_source(cast_body(*sphere(centre, radius), test_box, 64,
+                                                [](auto&, const glm::dvec3& normal) { return -normal; }));
+    Mesh mesh = coarse(source.full, 500);
+    const Texture texture = bake_texture(mesh, source.captured, {.size = 256});
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::vec3 out(glm::normalize(point_of(mesh, t, corner_weights[0]) - centre));
+        EXPECT_LT(glm::dot(mesh.normals[mesh.triangles[t][0]], out), -0.8f);
+        EXPECT_LT(degrees_between(shown_at(mesh, texture, t, corner_weights[0]).normal, -out), 10);
+    }
+}
+
 TEST(Bake, ChartsAreApartAndCoverNothingTwice) {
     for (const double triangles : {300.0, 4000.0}) {
         const Source source = coloured_box(96);

@@ -33,6 +33,10 @@ BodyPtr slit_shell() {
     return subtract(subtract(box({0, 0, 0}, glm::dvec3(half)), box({0, 0, 0}, glm::dvec3(0.4))),
                     box({0.003, slit_at, 0.5}, {0.41, slit / 2, 0.3}));
 }
+/// A floor whose normals the program has the wrong way round.
+glm::dvec3 inward(const glm::dvec3& at, const glm::dvec3& normal) {
+    return std::abs(at.z) < 0.01 ? -normal : normal;
+}
 /// On the closing: places along the slit, at its middle, so far over the flush face.
 std::vector<glm::dvec3> along_slit(double over) {
     std::vector<glm::dvec3> places;
@@ -98,11 +102,7 @@ TEST(Closing, NeedsAllLayers) {
                   source.captured.find(at, up, up, reach).position);
 }
 
-/// Also normals that the program has the wrong way round.
 TEST(Closing, IsSeenInTheVertices) {
-    const NormalEdit inward = [](const glm::dvec3& at, const glm::dvec3& normal) {
-        return std::abs(at.z) < 0.01 ? -normal : normal;
-    };
     const Source source = painted(slit_block(), true, inward);
     std::size_t closing = 0, beside = 0;
     for (std::size_t v = 0; v < source.full.positions.size(); ++v) {
@@ -124,10 +124,10 @@ TEST(Closing, IsSeenInTheVertices) {
 }
 
 TEST(Closing, IsSeenInTheTextureOfALevel) {
-    const Source source = painted(slit_block());
+    const Source source = painted(slit_block(), true, inward);
     Mesh mesh = coarse(source.full, 60);
     const Texture texture = bake_texture(mesh, source.captured, {.size = 512});
-    double green = 0, red = 0, along = 0, beside = 0;
+    double green = 0, red = 0, down = 0, up_beside = 0, along = 0, beside = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int i = 1; i < 200; ++i)
             for (int j = 1; i + j < 200; ++j) {
@@ -136,14 +136,20 @@ TEST(Closing, IsSeenInTheTextureOfALevel) {
                 for (int k = 0; k < 3; ++k) at += double(w[k]) * mesh.positions[mesh.triangles[t][k]];
                 if (at.z < half - 3 * sample || std::abs(at.x) > 0.5 || std::abs(at.y) > 0.5) continue;
                 const double off = std::abs(at.y - slit_at) / sample;
-                const glm::vec3 colour = shown_at(mesh, texture, t, w).colour;
-                if (off < 0.3) green += colour.g, ++along;
-                if (off > 2.5) red += colour.r, ++beside;
+                const Shown shown = shown_at(mesh, texture, t, w);
+                if (off < 0.3) green += shown.colour.g, down -= shown.normal.z, ++along;
+                if (off > 2.5) red += shown.colour.r, up_beside += shown.normal.z, ++beside;
             }
     ASSERT_GT(along, 10);
     ASSERT_GT(beside, 1000);
     EXPECT_GT(green / along, 0.95);
     EXPECT_GT(red / beside, 0.999);
+    EXPECT_GT(down / along, 0.9);
+    EXPECT_GT(up_beside / beside, 0.999);
+    // The frame that they are written in turns over nowhere.
+    for (const Triangle& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_GT(glm::dot(mesh.normals[t[k]], mesh.normals[t[(k + 1) % 3]]), -0.5f);
 }
 
 } // namespace
