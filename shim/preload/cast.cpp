@@ -336,6 +336,11 @@ class Cast {
             if (candidate.in_part[part] >= 0)
                 for (const auto& [what, times] : record::not_understood(*parts[part].frame))
                     not_understood[what] += times;
+        if (const long cuts = cutting_draws(scenes, candidate.group)) {
+            not_understood["a draw that cuts solids in the depth buffer: they are cast uncut"] = cuts;
+            say_once("solids that the program cuts out of one another as it draws them (OpenCSG) are cast uncut: let it "
+                     "cut them before, in OpenSCAD by render() in the script");
+        }
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
         if (window.unanswered > 0)

@@ -25,6 +25,8 @@ void add(Group& all, const Group& one) {
     all.last_draw = std::max(all.last_draw, one.last_draw);
     all.triangles += one.triangles;
     all.outlined += one.outlined;
+    all.at_equal_depth += one.at_equal_depth;
+    all.at_greater_depth += one.at_greater_depth;
     all.lines += one.lines;
     all.points += one.points;
     all.writes_depth |= one.writes_depth;

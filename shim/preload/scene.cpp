@@ -92,6 +92,11 @@ class Analysis final : public DrawGate {
             group.base_is_stencilled = draw.stencilled;
         }
         pushed.reset();
+        if (has_faces(mode) && tests) {
+            group.at_equal_depth += function == GL_EQUAL;
+            const bool greater = function == GL_GREATER || function == GL_GEQUAL;
+            group.at_greater_depth += greater && draw.stencilled && !inner.IsEnabled(GL_BLEND);
+        }
         ++group.draws;
         group.last_draw = static_cast<long>(scene.draws.size());
         scene.draws.push_back(draw);
@@ -195,6 +200,15 @@ class GroupFilter final : public DrawGate {
 bool Group::same_place(const Group& other) const {
     return framebuffer == other.framebuffer && draw_buffer == other.draw_buffer && viewport == other.viewport &&
            kind == other.kind && projection == other.projection;
+}
+
+long cutting_draws(const std::vector<Scene>& scenes, const Group& group) {
+    long draws = 0;
+    if (group.at_equal_depth == 0 || group.depth_reversed) return 0;
+    for (const Scene& scene : scenes)
+        for (const Group& other : scene.groups)
+            if (other.projection == group.projection) draws += other.at_greater_depth;
+    return draws;
 }
 
 // The prologue pushes matrices of its own where the frame starts with some on the stack: none of them is the base.

@@ -36,6 +36,9 @@ struct Group {
     bool writes_depth = false; ///< any filled draw
     /// Of open draws; [1]: of those that mirror.
     std::array<long, 2> open_triangles{};
+    /// Draws of faces that show only at a depth which is there already; only at greater depths than are there, where
+    /// a stencil test lets them.
+    long at_equal_depth = 0, at_greater_depth = 0;
     /// What the model's axes are taken from: the modelview at the first glPushMatrix before the group's first
     /// draw that finds more than an identity, else the modelview of that draw. Draws under a stencil test, which may
     /// be reflections, count only where there are no others.
@@ -63,6 +66,12 @@ struct Scene {
     std::vector<Draw> draws;   ///< in the order of the frame
     long pixels = 0;           ///< rectangles of pixels
 };
+
+/// Draws with which a program cuts solids out of one another in the depth buffer before it draws `group`: faces
+/// behind others in the same projection, to whatever buffer, where the group then shows what has the depth that was
+/// left (OpenCSG; Goldfeather et al. 1989, "Near real-time CSG rendering using tree normalization and geometric
+/// pruning"). 0 where the group is not drawn so.
+long cutting_draws(const std::vector<Scene>& scenes, const Group& group);
 
 /// Replays the frame in the current context without drawing anything.
 Scene analyse(const record::Frame& frame, const GlTable& gl);

@@ -193,5 +193,58 @@ TEST(Scene, ReflectionsDoNotGiveTheAxes) {
     EXPECT_EQ(base(mirrored_first(false))[1], glm::dvec4(0, -1, 0, 0));
 }
 
+/// As OpenCSG subtracts: which fragments of the subtracted solid's back lie behind the front of the other is marked
+/// in the stencil buffer, and the colours are drawn at the depths that are left.
+void subtract(const GlTable& gl) {
+    gl.DepthFunc(GL_LESS);
+    draw_triangle(gl, 1, 1);
+    keep_to_stencil(gl);
+    gl.DepthFunc(GL_GREATER);
+    for (int i = 0; i < 3; ++i) draw_triangle(gl, -1, 1);
+    gl.Disable(GL_STENCIL_TEST);
+}
+
+TEST(Scene, SolidsCutInTheDepthBufferAreNoticed) {
+    const Played cut([](const GlTable& gl) {
+        subtract(gl);
+        gl.DepthFunc(GL_EQUAL);
+        draw_triangle(gl, 1, 1);
+    });
+    EXPECT_EQ(cutting_draws({cut.scene}, cut.scene.groups.at(0)), 3);
+    Scene elsewhere = cut.scene; // what is cut in a buffer of its own, then shown in this one
+    elsewhere.groups[0].at_equal_depth = 0;
+    Group shown = cut.scene.groups[0];
+    shown.at_greater_depth = 0;
+    EXPECT_EQ(cutting_draws({elsewhere}, shown), 3);
+    shown.projection[0][0] = 2;
+    EXPECT_EQ(cutting_draws({elsewhere}, shown), 0);
+}
+
+TEST(Scene, FurtherLightsAndWhatShinesThroughAreNotCutting) {
+    const auto cuts = [](const auto& draw) {
+        const Played played(draw);
+        return cutting_draws({played.scene}, played.scene.groups.at(0));
+    };
+    EXPECT_EQ(cuts([](const GlTable& gl) {
+                  draw_triangle(gl, 1, 1);
+                  gl.DepthFunc(GL_EQUAL); // a further light, where there is no shadow
+                  keep_to_stencil(gl);
+                  draw_triangle(gl, 1, 1);
+                  gl.Enable(GL_BLEND); // a hidden unit's outline
+                  gl.DepthFunc(GL_GREATER);
+                  draw_triangle(gl, 1, 1);
+              }),
+              0);
+    EXPECT_EQ(cuts(subtract), 0); // nothing is shown at what was left
+    EXPECT_EQ(cuts([](const GlTable& gl) {
+                  gl.DepthFunc(GL_GREATER); // the greater depth is in front
+                  keep_to_stencil(gl);
+                  draw_triangle(gl, 1, 1);
+                  gl.DepthFunc(GL_EQUAL);
+                  draw_triangle(gl, 1, 1);
+              }),
+              0);
+}
+
 } // namespace
 } // namespace glcast::preload
