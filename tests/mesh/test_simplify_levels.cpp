@@ -28,15 +28,18 @@ bool same(const Mesh& a, const Mesh& b) {
            equal(a.triangles, b.triangles);
 }
 
-/// Large enough to be cut into tiles: 300,000 triangles, in stripes of two colours.
+/// In stripes of two colours.
+Mesh striped_torus(int around, int across) {
+    Mesh made = torus(2, 0.7, around, across);
+    paint(made, [](const glm::dvec3& p) {
+        return std::sin(7 * std::atan2(p.y, p.x)) > 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    });
+    return made;
+}
+
+/// Large enough to be cut into tiles: 300,000 triangles.
 const Mesh& large_torus() {
-    static const Mesh mesh = [] {
-        Mesh made = torus(2, 0.7, 548, 274);
-        paint(made, [](const glm::dvec3& p) {
-            return std::sin(7 * std::atan2(p.y, p.x)) > 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-        });
-        return made;
-    }();
+    static const Mesh mesh = striped_torus(548, 274);
     return mesh;
 }
 
@@ -118,6 +121,37 @@ TEST(SimplifyTiles, AreTheSameOnAnyNumberOfThreads) {
         four = simplify_levels(large_torus(), targets);
     }
     for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(same(one[k], four[k])) << k;
+}
+
+double distance_to_torus(const glm::dvec3& p) {
+    return std::abs(std::hypot(std::hypot(p.x, p.y) - 2, p.z) - 0.7);
+}
+
+// So many triangles that the first round only thins them.
+TEST(SimplifyTiles, OfADenseSurfaceAreTheSameWhateverIsAskedAndNearTheTruth) {
+    const Mesh mesh = striped_torus(1270, 635); // 1.6 million
+    const SimplifyTarget coarse[] = {{Unit::triangles, 40'000}},
+                         both[] = {{Unit::triangles, 1'300'000}, {Unit::triangles, 40'000}};
+    CollapseLog log;
+    std::vector<Mesh> levels, alone;
+    {
+        const tbb::global_control cores(tbb::global_control::max_allowed_parallelism, 1);
+        levels = simplify_levels(mesh, both, {.refit = false}, &log);
+    }
+    {
+        const tbb::global_control cores(tbb::global_control::max_allowed_parallelism, 4);
+        alone = simplify_levels(mesh, coarse, {.refit = false});
+    }
+    EXPECT_TRUE(same(alone[0], levels[1]));
+    for (const Mesh& level : levels)
+        EXPECT_TRUE(same(level, collapsed(mesh, log, mesh.positions.size() - level.positions.size())));
+    const double most[] = {2e-5, 7e-4};
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        EXPECT_TRUE(check_mesh(levels[k]).closed_manifold());
+        EXPECT_EQ(levels[k].triangles.size(), both[k].value);
+        for (const glm::dvec3& p : levels[k].positions) ASSERT_LT(distance_to_torus(p), most[k]);
+        EXPECT_NEAR(check_mesh(levels[k]).volume, check_mesh(mesh).volume, 2e-5 * check_mesh(mesh).volume);
+    }
 }
 
 TEST(SimplifyTiles, LeaveTheNormalsAloneInTheLastStretch) {

@@ -19,6 +19,8 @@ constexpr std::size_t fitted_below = 33'000;
 // With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and
 // every collapse would have to be asked about.
 constexpr std::size_t guarded_below = 100'000;
+// With more, a round goes by place and colour alone, and the planes are those of what it leaves.
+constexpr std::size_t thinned_above = 1'500'000;
 // From round to round. The cost of a collapse grows with the third power of what one triangle stands for.
 constexpr float price_grows = 4;
 constexpr double least_progress = 0.9; // of the triangles left by a round; else the price must rise faster
@@ -28,8 +30,8 @@ constexpr int most_idle_rounds = 3;
 template <int N> class RoundsCollapser final : public Collapser {
   public:
     RoundsCollapser(const Mesh& mesh, const Limit& have, const AttributeWeights& weights, bool keep_log)
-        : mesh(mesh), cube(mesh), weights(weights), live(have), keep_log(keep_log),
-          base(surface_of<N>(mesh, cube, 2 * have.edges != 3 * have.triangles)) {
+        : mesh(mesh), cube(mesh), weights(weights), live(have),
+          keep_log(keep_log), base{shape_of(mesh, cube, 2 * have.edges != 3 * have.triangles), {}} {
         became = base.id;
     }
 
@@ -50,7 +52,7 @@ template <int N> class RoundsCollapser final : public Collapser {
 
     Remainder remainder() const override {
         std::vector<std::uint32_t> of_base;
-        Surface<N> left = after_steps(base, std::span(steps).first(taken), of_base);
+        Shape left = after_steps(base, std::span(steps).first(taken), of_base);
         Remainder result;
         result.positions.reserve(left.position.size());
         for (std::size_t v = 0; v < left.position.size(); ++v)
@@ -75,7 +77,8 @@ template <int N> class RoundsCollapser final : public Collapser {
         return live.triangles <= limit.triangles && live.edges <= limit.edges;
     }
 
-    /// Until the limit is kept. They are put in order only where it matters: a level or a log lies among them.
+    /// Until the limit is kept. They are put in order only where it matters: a level or a log lies among
+    /// them.
     void take_steps(const Limit& limit) {
         if (!in_order && !keep_log) {
             const Limit before = live;
@@ -128,6 +131,8 @@ template <int N> class RoundsCollapser final : public Collapser {
         }
         steps.clear();
         taken = 0;
+        if (live.triangles > thinned_above && base.beside.empty() && base.quadrics.empty() && idle == 0)
+            return weights.colour > 0 ? thin<3>() : thin<0>();
         const TriangleQuadrics<N> of_triangles(mesh, base, weights);
         if (idle == most_idle_rounds || live.triangles <= one_patch) {
             whole = whole_patch(base, mesh, cube, of_triangles);
@@ -138,10 +143,25 @@ template <int N> class RoundsCollapser final : public Collapser {
         }
         RoundOptions options{triangles_per_tile, turn++, price};
         next = collapse_tiles(base, mesh, cube, of_triangles, options);
+        end_round(options.price);
+    }
+
+    /// A round by place, and colour where M is 3, alone.
+    template <int M> void thin() {
+        Surface<M> surface{std::move(static_cast<Shape&>(base)), {}};
+        const TriangleQuadrics<M> of_triangles(mesh, surface, {weights.colour, 0});
+        RoundOptions options{triangles_per_tile, turn++, price, true};
+        Round<M> round = collapse_tiles(surface, mesh, cube, of_triangles, options);
+        static_cast<Shape&>(base) = std::move(surface);
+        next = {std::move(round.steps), {std::move(round.left), {}}, std::move(round.became)};
+        end_round(options.price);
+    }
+
+    void end_round(float paid) {
         const bool idled =
             double(next.left.triangles.size()) > least_progress * double(base.triangles.size());
         idle = idled ? idle + 1 : 0;
-        price = options.price * (idled ? price_leaps : price_grows);
+        price = paid * (idled ? price_leaps : price_grows);
         steps = std::move(next.steps);
         in_order = false;
     }

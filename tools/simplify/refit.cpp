@@ -8,8 +8,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
-#include <unordered_map>
+#include <span>
 
 #include "tools/mesh/point_triangle.h"
 #include "tools/simplify/attributes.h"
@@ -33,6 +34,7 @@ constexpr double min_cosine = 0.5, min_quality = 0.02;
 // distances that must go.
 constexpr double min_swap_cosine = 0.2, min_swap_gain = 0.01;
 
+constexpr std::uint32_t none = UINT32_MAX;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Sample {
@@ -62,31 +64,61 @@ Corners corners(const Mesh& mesh, const Triangle& t) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-/// Evenly by area; within a triangle by Roberts's R2 sequence, folded.
-std::vector<Sample> spread(const Mesh& surface, const std::vector<std::uint32_t>& became, std::size_t count) {
-    std::vector<double> areas(surface.triangles.size()); // twice; the sums stay in one order
-    tbb::parallel_for(std::size_t(0), areas.size(), [&](std::size_t t) {
-        areas[t] = glm::length(corners(surface, surface.triangles[t]).normal());
+} // namespace
+
+SurfaceArea::SurfaceArea(const Mesh& mesh) : surface(mesh), up_to(mesh.triangles.size()) {
+    tbb::parallel_for(std::size_t(0), up_to.size(), [&](std::size_t t) {
+        up_to[t] = glm::length(corners(surface, surface.triangles[t]).normal());
     });
-    double total = 0, passed = 0;
-    for (const double area : areas) total += area;
+    std::partial_sum(up_to.begin(), up_to.end(), up_to.begin()); // in one order
+}
+
+namespace {
+
+/// Evenly by area; within a triangle by Roberts's R2 sequence, folded.
+std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint32_t>& became,
+                           std::size_t count) {
+    const double total = over.up_to.empty() ? 0 : over.up_to.back();
     std::vector<Sample> samples;
     if (!(total > 0)) return samples;
-    samples.reserve(count);
-    for (std::size_t i = 0; i < areas.size(); ++i) {
-        passed += areas[i];
-        while (samples.size() < count && (double(samples.size()) + 0.5) * total < passed * double(count)) {
-            const double k = double(samples.size() + 1);
-            double u = std::fmod(0.5 + k * 0.7548776662466927, 1),
-                   v = std::fmod(0.5 + k * 0.5698402909980532, 1);
-            if (u + v > 1) u = 1 - u, v = 1 - v;
-            const Corners at = corners(surface, surface.triangles[i]);
-            samples.push_back(
-                {at.a + u * (at.b - at.a) + v * (at.c - at.a), at.normal(), became[surface.triangles[i][0]]});
-        }
-    }
+    samples.resize(count);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+        const double before = (double(i) + 0.5) * total / double(count);
+        const auto found = std::upper_bound(over.up_to.begin(), over.up_to.end(), before);
+        const Triangle& triangle =
+            over.surface.triangles[std::min(std::size_t(found - over.up_to.begin()), over.up_to.size() - 1)];
+        const double k = double(i + 1);
+        double u = std::fmod(0.5 + k * 0.7548776662466927, 1), v = std::fmod(0.5 + k * 0.5698402909980532, 1);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Corners at = corners(over.surface, triangle);
+        samples[i] = {at.a + u * (at.b - at.a) + v * (at.c - at.a), at.normal(), became[triangle[0]]};
+    });
     return samples;
 }
+
+/// A triangle of the level, and its sides: how far a point is beyond one it is no nearer to the triangle.
+struct Faced {
+    Corners at;
+    glm::dvec3 normal;      ///< as long as twice the area
+    glm::dvec3 outwards[3]; ///< of each side, of length 1 in the triangle's plane; 0 where there is none
+
+    explicit Faced(const Corners& corners) : at(corners), normal(corners.normal()) {
+        const glm::dvec3 sides[3] = {at.b - at.a, at.c - at.b, at.a - at.c};
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 out = glm::cross(sides[k], normal);
+            const double length = glm::length(out);
+            outwards[k] = length > 0 ? out / length : glm::dvec3(0);
+        }
+    }
+    bool is_further(const glm::dvec3& point, double squared) const {
+        const glm::dvec3* const corner[3] = {&at.a, &at.b, &at.c};
+        for (int k = 0; k < 3; ++k)
+            if (const double beyond = glm::dot(outwards[k], point - *corner[k]);
+                beyond > 0 && beyond * beyond > squared)
+                return true;
+        return false;
+    }
+};
 
 /// Where a sample is laid on the mesh.
 struct Place {
@@ -104,7 +136,11 @@ class Fit {
 
     /// Lay every sample on the mesh; the sum of their squared distances.
     double lay() {
+        faced.clear();
+        faced.reserve(mesh.triangles.size());
+        for (const Triangle& t : mesh.triangles) faced.emplace_back(corners(mesh, t));
         tbb::parallel_for(std::size_t(0), samples.size(), [&](std::size_t i) { lay(samples[i], places[i]); });
+        laid = true;
         double sum = 0;
         for (const Place& place : places) sum += place.squared;
         return sum;
@@ -121,17 +157,19 @@ class Fit {
 
     /// Each vertex takes part in one swap at most, so that none undoes what another looked at.
     void swap_edges() {
-        const Edges edges = directed_edges();
-        const std::vector<std::vector<std::uint32_t>> laid = samples_by_triangle();
+        const auto laid_on = samples_by_triangle();
         std::vector<bool> touched(mesh.positions.size());
         bool any = false;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k) {
-                const auto diamond = diamond_at(edges, t, k);
+                if (touched[mesh.triangles[t][0]] || touched[mesh.triangles[t][1]] ||
+                    touched[mesh.triangles[t][2]])
+                    break;
+                const auto diamond = diamond_at(t, k);
                 if (!diamond) continue;
                 const auto& [left, right, a, b, c, d] = *diamond;
-                if (touched[a] || touched[b] || touched[c] || touched[d]) continue;
-                if (!better_swapped(*diamond, laid[left], laid[right])) continue;
+                if (touched[d]) continue;
+                if (!better_swapped(*diamond, laid_on(left), laid_on(right))) continue;
                 const SurfaceChange change{{left, right}, {{a, d, c}, {d, b, c}}};
                 if (guard.crosses(surface(), change)) continue;
                 mesh.triangles[left] = change.made[0];
@@ -148,23 +186,24 @@ class Fit {
         std::uint32_t sample;
         int corner;
     };
-    /// Directed edge, to the triangle on its left.
-    using Edges = std::unordered_map<std::uint64_t, std::uint32_t>;
     /// Two triangles, a b c and b a d, that may become a d c and d b c.
     struct Diamond {
         std::uint32_t left, right, a, b, c, d;
     };
 
-    void lay(Sample& sample, Place& place) const {
+    void lay(const Sample& sample, Place& place) const {
+        const std::uint32_t before_this = place.triangle;
         place = Place{};
         Seen seen;
-        look_around(sample, sample.start, place, seen);
+        if (laid) // most stay near where they were
+            look_at(sample, before_this, place);
+        else
+            look_around(sample, sample.start, place, seen);
         for (double before = infinity; place.squared < before;) {
             before = place.squared;
             for (const std::uint32_t v : Triangle(mesh.triangles[place.triangle]))
                 look_around(sample, v, place, seen);
         }
-        sample.start = mesh.triangles[place.triangle][0];
     }
 
     /// The vertices that a walk looked around last: what lies there is no nearer the second time.
@@ -182,16 +221,19 @@ class Fit {
 
     void look_around(const Sample& sample, std::uint32_t vertex, Place& best, Seen& seen) const {
         if (!seen.add(vertex)) return;
-        for (const std::uint32_t triangle : walk->around(vertex)) {
-            const Corners at = corners(mesh, mesh.triangles[triangle]);
-            const bool faces = glm::dot(at.normal(), sample.normal) > 0;
-            if (best.faces && !faces) continue;
-            const TrianglePoint found = nearest_in_triangle(sample.at, at.a, at.b, at.c);
-            const glm::dvec3 off = found.point - sample.at;
-            const double squared = glm::dot(off, off);
-            if ((faces && !best.faces) || squared < best.squared)
-                best = {triangle, faces, found.weights, squared};
-        }
+        for (const std::uint32_t triangle : walk->around(vertex)) look_at(sample, triangle, best);
+    }
+
+    void look_at(const Sample& sample, std::uint32_t triangle, Place& best) const {
+        const Faced& t = faced[triangle];
+        const bool faces = glm::dot(t.normal, sample.normal) > 0;
+        if (best.faces && !faces) return;
+        const bool must_be_nearer = best.faces || !faces;
+        if (must_be_nearer && t.is_further(sample.at, best.squared)) return;
+        const TrianglePoint found = nearest_in_triangle(sample.at, t.at.a, t.at.b, t.at.c);
+        const glm::dvec3 off = found.point - sample.at;
+        const double squared = glm::dot(off, off);
+        if (!must_be_nearer || squared < best.squared) best = {triangle, faces, found.weights, squared};
     }
 
     /// Which samples pull at which vertex, by vertex.
@@ -273,41 +315,52 @@ class Fit {
         return true;
     }
 
-    static std::uint64_t key(std::uint32_t from, std::uint32_t to) { return std::uint64_t(from) << 32 | to; }
+    /// Lists of samples, by triangle.
+    struct Laid {
+        std::vector<std::uint32_t> first, samples;
+        std::span<const std::uint32_t> operator()(std::uint32_t t) const {
+            return std::span(samples).subspan(first[t], first[t + 1] - first[t]);
+        }
+    };
 
-    Edges directed_edges() const {
-        Edges edges;
-        edges.reserve(mesh.triangles.size() * 3);
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-            for (std::size_t k = 0; k < 3; ++k)
-                edges[key(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])] = t;
-        return edges;
-    }
-
-    std::vector<std::vector<std::uint32_t>> samples_by_triangle() const {
-        std::vector<std::vector<std::uint32_t>> laid(mesh.triangles.size());
+    Laid samples_by_triangle() const {
+        Laid laid;
+        laid.first.assign(mesh.triangles.size() + 1, 0);
+        for (const Place& place : places) laid.first[place.triangle + 1] += place.faces;
+        std::partial_sum(laid.first.begin(), laid.first.end(), laid.first.begin());
+        laid.samples.resize(laid.first.back());
+        std::vector<std::uint32_t> next(laid.first.begin(), laid.first.end() - 1);
         for (std::uint32_t i = 0; i < places.size(); ++i)
-            if (places[i].faces) laid[places[i].triangle].push_back(i);
+            if (places[i].faces) laid.samples[next[places[i].triangle]++] = i;
         return laid;
     }
 
-    /// Around edge k of a triangle, unless it is a boundary or its swap would not leave a manifold. `edges`
-    /// is from before the swaps of this pass, none of which shares a vertex with a diamond that is taken.
-    std::optional<Diamond> diamond_at(const Edges& edges, std::uint32_t t, std::size_t k) const {
+    bool are_joined(std::uint32_t v, std::uint32_t w) const {
+        return std::ranges::any_of(walk->around(v), [&](std::uint32_t t) {
+            const Triangle& corners = mesh.triangles[t];
+            return std::find(corners.begin(), corners.end(), w) != corners.end();
+        });
+    }
+
+    /// Around edge k of a triangle, unless it is a boundary or its swap would not leave a manifold. `walk` is
+    /// from before the swaps of this pass, none of which shares a vertex with the triangle.
+    std::optional<Diamond> diamond_at(std::uint32_t t, std::size_t k) const {
         const Triangle& one = mesh.triangles[t];
-        Diamond at{t, 0, one[k], one[(k + 1) % 3], one[(k + 2) % 3], 0};
-        const auto back = edges.find(key(at.b, at.a));
-        if (at.a > at.b || back == edges.end()) return {};
-        at.right = back->second;
-        for (const std::uint32_t v : mesh.triangles[at.right])
-            if (v != at.a && v != at.b) at.d = v;
-        if (at.c == at.d || edges.contains(key(at.c, at.d)) || edges.contains(key(at.d, at.c))) return {};
+        Diamond at{t, none, one[k], one[(k + 1) % 3], one[(k + 2) % 3], 0};
+        if (at.a > at.b) return {};
+        for (const std::uint32_t other : walk->around(at.a))
+            for (std::size_t j = 0; j < 3; ++j)
+                if (const Triangle& two = mesh.triangles[other]; two[j] == at.b && two[(j + 1) % 3] == at.a) {
+                    at.right = other;
+                    at.d = two[(j + 2) % 3];
+                }
+        if (at.right == none || at.c == at.d || are_joined(at.c, at.d)) return {};
         if (walk->around(at.a).size() < 4 || walk->around(at.b).size() < 4) return {};
         return at;
     }
 
-    bool better_swapped(const Diamond& at, const std::vector<std::uint32_t>& laid_left,
-                        const std::vector<std::uint32_t>& laid_right) const {
+    bool better_swapped(const Diamond& at, std::span<const std::uint32_t> laid_left,
+                        std::span<const std::uint32_t> laid_right) const {
         const Corners was[2] = {corners(mesh, {at.a, at.b, at.c}), corners(mesh, {at.b, at.a, at.d})},
                       now[2] = {corners(mesh, {at.a, at.d, at.c}), corners(mesh, {at.d, at.b, at.c})};
         const glm::dvec3 mean = was[0].normal() + was[1].normal();
@@ -334,6 +387,8 @@ class Fit {
     std::unique_ptr<SurfaceWalk> walk;
     std::vector<Sample> samples;
     std::vector<Place> places;
+    bool laid = false;                ///< `places` are those of the last round
+    std::vector<Faced> faced;         ///< by triangle, as they were when samples were laid last
     std::vector<std::uint32_t> first; ///< per vertex, where its pulls begin; one more at the end
     std::vector<Pull> pulls;
     CrossingGuard guard;
@@ -341,7 +396,7 @@ class Fit {
 
 } // namespace
 
-void refit(Collapser::Remainder& remainder, const Mesh& surface) {
+void refit(Collapser::Remainder& remainder, const SurfaceArea& surface) {
     const std::size_t vertices = remainder.positions.size();
     const std::size_t count = std::clamp(samples_per_vertex * vertices, least_samples, most_samples);
     if (count < too_few_per_vertex * vertices) return;

@@ -6,12 +6,20 @@
 
 namespace glcast {
 
+/// Where a share of a surface's area lies.
+struct SurfaceArea {
+    const Mesh& surface;
+    std::vector<double> up_to; ///< twice the area of the triangles up to each, it included
+
+    explicit SurfaceArea(const Mesh& mesh); ///< `mesh` must outlive this
+};
+
 /// Moves vertices and swaps edges of the remainder towards the least sum of squared distances from points
 /// spread evenly over `surface`. Which part of the remainder a point belongs to is found by walking along it,
 /// from the vertex that the point's surroundings collapsed into, and only triangles that face as the point
 /// does count: the two sides of a thin wall stay apart. No triangle turns over, the number of triangles and
 /// what is connected stay. A remainder of more than some 30,000 triangles is left as it is: there the
 /// collapses do as well. Deterministic on any number of threads.
-void refit(Collapser::Remainder& remainder, const Mesh& surface);
+void refit(Collapser::Remainder& remainder, const SurfaceArea& surface);
 
 } // namespace glcast

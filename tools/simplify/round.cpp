@@ -122,9 +122,10 @@ template <int N> struct TileResult {
         quadrics; ///< of the vertices that are left; on the rim: changes
 };
 
-template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) {
+template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, const RoundOptions& options) {
     TileResult<N> result;
-    made.patch.queue_edges(price);
+    made.patch.memoryless = !options.thins;
+    made.patch.queue_edges(options.price);
     std::vector<char> gone(made.names.size(), 0);
     float dearest = 0; // so far: none comes before those that the tile made earlier
     for (Step step; made.patch.collapse_cheapest(step);) {
@@ -134,7 +135,7 @@ template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, float price) 
         step.removed = made.names[step.removed];
         result.steps.push_back(step);
     }
-    for (std::size_t i = 0; i < made.patch.quadrics.size(); ++i)
+    for (std::size_t i = 0; !options.thins && i < made.patch.quadrics.size(); ++i)
         if (!gone[i] && i != made.patch.ghost)
             result.quadrics.emplace_back(made.names[i], made.patch.quadrics[i]);
     return result;
@@ -224,13 +225,13 @@ Round<N> collapse_tiles(const Surface<N>& surface, const Mesh& mesh, const UnitC
     tbb::parallel_for(
         std::size_t(0), tiles.count(),
         [&](std::size_t tile) {
-            results[tile] = collapse_tile(workplace.patch_of(std::uint32_t(tile)), options.price);
+            results[tile] = collapse_tile(workplace.patch_of(std::uint32_t(tile)), options);
         },
         tbb::simple_partitioner());
     Round<N> round;
     round.steps = all_steps(results);
-    round.left = after_steps(surface, round.steps, round.became);
-    gather_quadrics(round.left, round.became, workplace, results);
+    static_cast<Shape&>(round.left) = after_steps(surface, round.steps, round.became);
+    if (!options.thins) gather_quadrics(round.left, round.became, workplace, results);
     return round;
 }
 

@@ -29,6 +29,8 @@ struct RoundOptions {
     std::size_t triangles_per_tile = 0;
     unsigned turn = 0;
     float price = 0; ///< 0: find one
+    /// Planes are added up, and no quadrics are left: of what many triangles still stand for little.
+    bool thins = false;
 };
 
 /// Collapses what costs no more than the price; sets it where it is 0.

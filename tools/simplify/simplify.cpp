@@ -115,11 +115,13 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
         const auto collapser =
             Collapser::make(mesh, {have.triangles, have.edges}, weights_of(options), log != nullptr);
         std::optional<SurfaceWalk> walk;
+        std::optional<SurfaceArea> area;
         for (const std::size_t level : order) {
             if (collapser->run_rounds(limits[level])) last_stretch.begin();
             collapser->reduce_to(limits[level]);
             Collapser::Remainder remainder = collapser->remainder();
-            if (options.refit) refit(remainder, mesh);
+            if (options.refit && !area) area.emplace(mesh);
+            if (options.refit) refit(remainder, *area);
             if (!walk) walk.emplace(mesh);
             levels[level] = finished(std::move(remainder), *walk, last_stretch.normals(), options);
         }

@@ -48,8 +48,8 @@ UnitCube::UnitCube(const Mesh& mesh) {
     scale = extent > 0 ? 1 / extent : 1;
 }
 
-template <int N> Surface<N> surface_of(const Mesh& mesh, const UnitCube& cube, bool has_boundaries) {
-    Surface<N> surface;
+Shape shape_of(const Mesh& mesh, const UnitCube& cube, bool has_boundaries) {
+    Shape surface;
     const std::size_t vertices = mesh.positions.size();
     surface.position.resize(vertices);
     surface.id.resize(vertices);
@@ -83,7 +83,7 @@ template <int N> Quadric<N> TriangleQuadrics<N>::of_boundary(std::size_t t) cons
     Quadric<N> q;
     const Triangle& ghost = surface.triangles[t];
     const glm::dvec3 a = surface.position[ghost[0]], along = surface.position[ghost[1]] - a;
-    const glm::dvec3 third = surface.position[surface.beside[t - mesh.triangles.size()]];
+    const glm::dvec3 third = surface.position[surface.beside[t - own]];
     const glm::dvec3 outwards = cross(along, cross(along, third - a));
     const double length = glm::length(outwards);
     if (length <= 0) return q;
@@ -100,10 +100,12 @@ void TriangleQuadrics<N>::add_attributes(Quadric<N>& q, const Triangle& t,
     const double squares = dot(doubled_area, doubled_area);
     const glm::dvec3 by_b = cross(c - a, doubled_area) / squares, by_c = cross(doubled_area, b - a) / squares;
     const glm::dvec3 middle = (a + b + c) / 3.0;
+    const std::vector<std::uint32_t>& source = surface.source;
     const auto add = [&](int first, const std::vector<glm::vec3>& values, double weight) {
         for (int k = 0; k < 3; ++k) {
-            const double at_a = weight * double(values[t[0]][k]), at_b = weight * double(values[t[1]][k]),
-                         at_c = weight * double(values[t[2]][k]);
+            const double at_a = weight * double(values[source[t[0]]][k]),
+                         at_b = weight * double(values[source[t[1]]][k]),
+                         at_c = weight * double(values[source[t[2]]][k]);
             glm::dvec3 g = by_b * (at_b - at_a) + by_c * (at_c - at_a);
             if (const double slope = glm::length(g); slope > steepest) g *= steepest / slope;
             q.add_attribute(first + k, g, (at_a + at_b + at_c) / 3 - dot(g, middle), q.weight);
@@ -114,9 +116,7 @@ void TriangleQuadrics<N>::add_attributes(Quadric<N>& q, const Triangle& t,
     if (weights.normal > 0) add(first, mesh.normals, weights.normal);
 }
 
-template <int N>
-Surface<N> after_steps(const Surface<N>& from, std::span<const Step> steps,
-                       std::vector<std::uint32_t>& became) {
+Shape after_steps(const Shape& from, std::span<const Step> steps, std::vector<std::uint32_t>& became) {
     const std::uint32_t vertices = from.ghost();
     std::vector<std::uint32_t> into(vertices), last(vertices, none); // the last step that moved each vertex
     for (std::uint32_t v = 0; v < vertices; ++v) into[v] = v;
@@ -124,7 +124,7 @@ Surface<N> after_steps(const Surface<N>& from, std::span<const Step> steps,
         into[steps[k].removed] = steps[k].kept;
         last[steps[k].kept] = k;
     }
-    Surface<N> surface;
+    Shape surface;
     const std::size_t left = vertices - steps.size();
     surface.position.reserve(left), surface.id.reserve(left), surface.source.reserve(left),
         surface.moved.reserve(left);
@@ -151,12 +151,8 @@ Surface<N> after_steps(const Surface<N>& from, std::span<const Step> steps,
     return surface;
 }
 
-#define GLCAST_INSTANTIATE(N)                                                                                \
-    template Surface<N> surface_of(const Mesh&, const UnitCube&, bool);                                      \
-    template class TriangleQuadrics<N>;                                                                      \
-    template Surface<N> after_steps(const Surface<N>&, std::span<const Step>, std::vector<std::uint32_t>&);
-GLCAST_INSTANTIATE(0)
-GLCAST_INSTANTIATE(3)
-GLCAST_INSTANTIATE(6)
+template class TriangleQuadrics<0>;
+template class TriangleQuadrics<3>;
+template class TriangleQuadrics<6>;
 
 } // namespace glcast

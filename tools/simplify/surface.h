@@ -25,27 +25,32 @@ struct UnitCube {
 
 /// What is left of a mesh, in the mesh's own order. A surface with boundaries has triangles to a ghost,
 /// `ghost()`.
-template <int N> struct Surface {
+struct Shape {
     std::vector<glm::dvec3> position; ///< in the unit cube
     std::vector<std::uint32_t> id;    ///< in the mesh
     std::vector<std::uint32_t> source;
     std::vector<char> moved;
     std::vector<Triangle> triangles;
-    std::vector<Quadric<N>> quadrics; ///< empty until the first round is over
-    std::vector<std::uint32_t>
-        beside; ///< before it: the last ones of the triangles are to the ghost; whom each edge looks at
+    std::vector<std::uint32_t> beside; ///< before any round: the last ones of the triangles are to the ghost;
+                                       ///< whom each edge looks at
 
     std::uint32_t ghost() const { return std::uint32_t(position.size()); }
 };
 
-/// Closed by triangles to the ghost, behind the others, where it has boundaries.
-template <int N> Surface<N> surface_of(const Mesh& mesh, const UnitCube& cube, bool has_boundaries);
+template <int N> struct Surface : Shape {
+    std::vector<Quadric<N>> quadrics; ///< empty until the first round that hands them on is over
+};
 
-/// Adds what triangle t of the mesh says to the quadrics that `quadric_of` gives, or null, for its corners.
+/// Closed by triangles to the ghost, behind the others, where it has boundaries.
+Shape shape_of(const Mesh& mesh, const UnitCube& cube, bool has_boundaries);
+
+/// Adds what triangle t of the surface says to the quadrics that `quadric_of` gives, or null, for its
+/// corners.
 template <int N> class TriangleQuadrics {
   public:
-    TriangleQuadrics(const Mesh& mesh, const Surface<N>& surface, const AttributeWeights& weights)
-        : mesh(mesh), surface(surface), weights(weights) {}
+    TriangleQuadrics(const Mesh& mesh, const Shape& surface, const AttributeWeights& weights)
+        : mesh(mesh), surface(surface), weights(weights),
+          own(surface.triangles.size() - surface.beside.size()) {}
 
     template <typename F> void add(std::size_t t, const F& quadric_of) const {
         Quadric<N> q;
@@ -54,7 +59,7 @@ template <int N> class TriangleQuadrics {
             if (v == surface.ghost()) continue;
             Quadric<N>* sum = quadric_of(v);
             if (!sum) continue;
-            if (!known) q = t < mesh.triangles.size() ? of(surface.triangles[t]) : of_boundary(t);
+            if (!known) q = t < own ? of(surface.triangles[t]) : of_boundary(t);
             known = true;
             *sum += q;
         }
@@ -66,14 +71,13 @@ template <int N> class TriangleQuadrics {
     void add_attributes(Quadric<N>& q, const Triangle& t, const glm::dvec3& doubled_area) const;
 
     const Mesh& mesh;
-    const Surface<N>& surface;
+    const Shape& surface;
     AttributeWeights weights;
+    std::size_t own; ///< triangles; the others are to the ghost
 };
 
 /// After the steps, which name vertices of `from`; without quadrics. `became`: for every vertex of `from`,
 /// which one it is now.
-template <int N>
-Surface<N> after_steps(const Surface<N>& from, std::span<const Step> steps,
-                       std::vector<std::uint32_t>& became);
+Shape after_steps(const Shape& from, std::span<const Step> steps, std::vector<std::uint32_t>& became);
 
 } // namespace glcast
