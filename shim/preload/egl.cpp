@@ -156,7 +156,7 @@ GLCAST_EXPORT EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, 
 
 GLCAST_EXPORT EGLBoolean eglDestroyContext(EGLDisplay display, EGLContext context) {
     const Outermost outermost;
-    if (outermost) context_destroyed(context);
+    if (outermost && !context_destroyed(display, context)) return EGL_TRUE;
     return real().eglDestroyContext(display, context);
 }
 

@@ -240,7 +240,7 @@ GLCAST_EXPORT GLXContext glXCreateContextWithConfigSGIX(Display* display, GLXFBC
 
 GLCAST_EXPORT void glXDestroyContext(Display* display, GLXContext context) {
     const Outermost outermost;
-    if (outermost) context_destroyed(context);
+    if (outermost && !context_destroyed(display, context)) return;
     real().glXDestroyContext(display, context);
 }
 

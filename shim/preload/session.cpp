@@ -36,7 +36,13 @@ Session& session() {
     return *made;
 }
 
-void update_unwanted(Session& s) { unwanted = !s.triggers.waiting(); }
+void update_unwanted(Session& s) {
+    bool waiting = false;
+    do { // until it is so: two threads may be here, and the one that looked first may write last
+        waiting = s.triggers.waiting();
+        unwanted = !waiting;
+    } while (waiting != s.triggers.waiting());
+}
 
 namespace {
 
@@ -183,11 +189,6 @@ std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintp
     return taken;
 }
 
-bool is_destroyed(Session& s, const NativeContext& context) {
-    const std::lock_guard lock(s.mutex);
-    return context.destroyed;
-}
-
 /// Count the frame that ends here, and cast it if it was recorded. `context` is null where none of desktop GL
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
@@ -209,10 +210,8 @@ void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
         std::erase_if(parts, [](const FramePart& part) {
             return part.context->display != thread_state.context->display;
         });
-    // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
-    if (thread_state.context && is_destroyed(s, *thread_state.context)) return;
     const bool expected = context && number >= s.options.frame && is_late_enough(s);
-    if (!parts.empty() || expected) cast_parts(s, parts, window, number);
+    if (!parts.empty() || expected) cast_parts(s, std::move(parts), thread_state.context, window, number);
 }
 
 /// A context that draws on a thread of its own to framebuffer objects: its part of a frame that has ended
@@ -232,7 +231,7 @@ void end_late_part(Session& s, NativeContext& context) {
         for (const auto& [key, ended] : s.ended)
             if (ended.frames > number) window = key, number = ended.frames;
     }
-    if (!parts.empty()) cast_parts(s, parts, window, number);
+    if (!parts.empty()) cast_parts(s, std::move(parts), &context, window, number);
     start_recording(s, context, thread_state.drawable);
 }
 
@@ -301,7 +300,8 @@ void context_made(const WindowSystem& system, void* display, void* handle, void*
     });
 }
 
-void context_destroyed(void* handle) noexcept {
+bool context_destroyed(void* display, void* handle) noexcept {
+    bool is_free = true;
     guarded([&](Session& s) {
         std::shared_ptr<NativeContext> context;
         {
@@ -310,12 +310,16 @@ void context_destroyed(void* handle) noexcept {
             if (at == s.contexts.end()) return;
             context = at->second;
             context->destroyed = true;
+            is_free = !context->in_cast || context->display != display;
             if (context->threads == 0) close_recording(s, *context);
             std::erase_if(s.parts, [&](const FramePart& part) { return part.context == context; });
             forget_if_unused(s, context.get());
         }
-        if (void* sibling = context->sibling.exchange(nullptr)) context->system->destroy(context->display, sibling);
+        if (!is_free) return; // its sibling is the cast's too
+        if (void* sibling = context->sibling.exchange(nullptr))
+            context->system->destroy(context->display, sibling);
     });
+    return is_free;
 }
 
 void made_current(const Binding& binding) noexcept {

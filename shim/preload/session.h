@@ -27,6 +27,7 @@ struct NativeContext {
     std::uintptr_t recorded_drawable = 0;
     int threads = 0; ///< on which it is current
     bool destroyed = false;
+    bool in_cast = false; ///< a cast has left it and will come back, or makes a sibling of it; on whatever thread
     /// A frame has ended elsewhere while this context was current on a thread of its own: what it has drawn by its
     /// next flush belongs to that frame.
     std::atomic<bool> end_is_due{false};
@@ -48,8 +49,8 @@ bool shadows_calls();
 /// `share` is a native handle or null. A null `make_sibling`: the context is not desktop GL.
 void context_made(const WindowSystem& system, void* display, void* handle, void* share,
                   std::function<void*()> make_sibling) noexcept;
-/// Before the real destroy.
-void context_destroyed(void* handle) noexcept;
+/// Before the real destroy. False where a cast on another thread uses the context: that destroys it at its end.
+bool context_destroyed(void* display, void* handle) noexcept;
 /// After a make-current that succeeded; null context: none is current on this thread.
 void made_current(const Binding& binding) noexcept;
 /// A surface that shows in a window of X.

@@ -53,8 +53,9 @@ void settle(Session& s) {
 
 void settle_in_time(Session& s) {
     std::this_thread::sleep_for(patience);
-    while (s.casting) std::this_thread::sleep_for(look_again);
+    while (s.casting.exchange(true)) std::this_thread::sleep_for(look_again); // and none begins meanwhile
     settle(s);
+    s.casting = false;
 }
 
 /// The windows that are not drawn again must not keep people waiting.
@@ -172,15 +173,64 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
     say("%ld frame%s, none with solid geometry: nothing captured (%s)", empty, plural(empty), why.c_str());
 }
 
+/// The contexts of a cast: the one that is current on this thread, which it leaves for a while, and those of the parts,
+/// of which it makes siblings. Where the program destroys one meanwhile, that is done when the cast is over.
+class HeldContexts {
+  public:
+    /// Parts whose context is gone go.
+    HeldContexts(Session& session, std::vector<FramePart>& parts, const NativeContext* current) : s(session) {
+        const std::lock_guard lock(s.mutex);
+        // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
+        if (current && current->destroyed) parts.clear();
+        std::erase_if(parts, [](const FramePart& part) { return part.context->destroyed; });
+        if (parts.empty()) return;
+        held.reserve(parts.size() + 1);
+        for (const FramePart& part : parts) hold(part.context);
+        if (const auto at = current ? s.contexts.find(current->handle) : s.contexts.end();
+            at != s.contexts.end())
+            hold(at->second);
+    }
+    ~HeldContexts() {
+        for (const auto& context : held)
+            if (is_destroyed(*context)) destroy(*context);
+    }
+    HeldContexts(const HeldContexts&) = delete;
+    HeldContexts& operator=(const HeldContexts&) = delete;
+
+  private:
+    Session& s;
+    std::vector<std::shared_ptr<NativeContext>> held;
+
+    void hold(const std::shared_ptr<NativeContext>& context) {
+        if (context->in_cast) return;
+        held.push_back(context);
+        context->in_cast = true;
+    }
+    bool is_destroyed(NativeContext& context) {
+        const std::lock_guard lock(s.mutex);
+        context.in_cast = false;
+        return context.destroyed;
+    }
+    static void destroy(NativeContext& context) {
+        if (void* sibling = context.sibling.exchange(nullptr))
+            context.system->destroy(context.display, sibling);
+        context.system->destroy(context.display, context.handle);
+    }
+};
+
 } // namespace
 
-void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number) {
+void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
+                long number) {
     if (parts.empty()) return frame_without_cast(s, {});
     if (s.casting.exchange(true)) return; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
         ~Over() { casting = false; }
     } const over{s.casting};
+    if (!s.triggers.waiting()) return; // it has cast the last that was wanted
+    const HeldContexts held(s, parts, current);
+    if (parts.empty()) return;
     const auto turn = take_turn(s, *parts.front().context, window.second);
     if (!turn) return;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);

@@ -61,7 +61,8 @@ Session* session_if_any();
 void update_unwanted(Session& s);
 
 /// A frame that ended in `window`, the number-th there: cast it, or note what it holds instead. `parts` may
-/// be empty.
-void cast_parts(Session& s, const std::vector<FramePart>& parts, FrameKey window, long number);
+/// be empty. `current`, where not null, is current on this thread.
+void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
+                long number);
 
 } // namespace glcast::preload

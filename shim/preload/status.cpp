@@ -28,6 +28,15 @@ void write_line(int file, const std::string& line) {
     errno = saved;
 }
 
+/// Asked once: the program may change its environment on another thread.
+const std::string& status_file() {
+    static const auto* const path = [] { // never destroyed: threads may outlive exit()
+        const char* const value = std::getenv("GLCAST_STATUS");
+        return new std::string(value ? value : "");
+    }();
+    return *path;
+}
+
 } // namespace
 
 void say(const char* format, ...) {
@@ -48,16 +57,13 @@ void say_once(const char* format, ...) {
     if (said->insert(line).second) write_line(STDERR_FILENO, "glcast: " + line);
 }
 
-bool has_status_file() {
-    const char* path = std::getenv("GLCAST_STATUS");
-    return path && *path;
-}
+bool has_status_file() { return !status_file().empty(); }
 
 void tell(const char* event, const std::string& text) {
     if (!has_status_file()) return;
     const int saved = errno;
     // Not blocking: a pipe whose reader has gone must not stop the program.
-    const int file = open(std::getenv("GLCAST_STATUS"), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK);
+    const int file = open(status_file().c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK);
     if (file >= 0) {
         write_line(file, std::string(event) + " " + text);
         close(file);

@@ -7,7 +7,7 @@
 namespace glcast::preload {
 namespace {
 
-std::atomic<long> signals{0};
+std::atomic<long> signals{0}; ///< that nobody has looked at
 /// The handler that was there before ours. Replaced, never changed: another thread may just be in ours.
 std::atomic<const struct sigaction*> program_action{nullptr};
 
@@ -59,8 +59,7 @@ void Triggers::give_up() { left = owed = 0; }
 void Triggers::look_for_signals() {
     if (signal == 0 || over()) return;
     put_handler(signal);
-    const long now = signals;
-    for (long seen = signals_seen.exchange(now); seen < now; ++seen) fire();
+    for (long came = signals.exchange(0); came > 0; --came) fire();
 }
 
 } // namespace glcast::preload

@@ -11,7 +11,7 @@ class Triggers {
     explicit Triggers(const Options& options);
 
     /// A frame is owed: the next with solid geometry is to be cast.
-    bool waiting() const { return owed.load(std::memory_order_relaxed) > 0; }
+    bool waiting() const { return owed > 0 && left > 0; }
     /// Nothing will be cast any more.
     bool over() const { return left.load(std::memory_order_relaxed) <= 0; }
     /// One frame more is wanted. From any thread.
@@ -27,7 +27,6 @@ class Triggers {
   private:
     const int signal;
     std::atomic<long> left, owed;
-    std::atomic<long> signals_seen{0};
 };
 
 } // namespace glcast::preload

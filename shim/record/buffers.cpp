@@ -56,8 +56,8 @@ void forget_buffer(Context& context, GLuint name) {
         context.group->buffers.clear();
 }
 
-ForgetBuffer::ForgetBuffer(Context* listening, GLenum target_or_name, NamedBy by) : context(listening) {
-    if (!context || !context->can_query()) {
+ForgetBuffer::ForgetBuffer(Context* changing, GLenum target_or_name, NamedBy by) : context(changing) {
+    if (!context || (context->listening() && !context->can_query())) {
         context = nullptr; // inside glBegin the call fails
         return;
     }
@@ -115,7 +115,7 @@ Blob whole_buffer(Context& context, GLuint name) {
 namespace glcast::record::custom {
 
 void APIENTRY DeleteBuffers(GLsizei n, const GLuint* buffers) {
-    Context* context = listening_context();
+    Context* context = changing_context();
     this_thread.real->DeleteBuffers(n, buffers);
     if (!context) return;
     context->arrays_dirty = true; // arrays of the current vertex array object lose their binding
@@ -125,7 +125,7 @@ void APIENTRY DeleteBuffers(GLsizei n, const GLuint* buffers) {
 
 void APIENTRY EndTransformFeedback() {
     this_thread.real->EndTransformFeedback();
-    if (Context* context = listening_context()) {
+    if (Context* context = changing_context()) {
         context->count("geometry captured by transform feedback");
         forget_buffer(*context, 0); // it may have written any of them
     }

@@ -15,7 +15,7 @@ enum NamedBy { by_target, by_name };
 /// Forgets a buffer when it goes out of scope. Does nothing where `context` is null.
 class ForgetBuffer {
   public:
-    ForgetBuffer(Context* listening, GLenum target_or_name, NamedBy by);
+    ForgetBuffer(Context* changing, GLenum target_or_name, NamedBy by);
     ~ForgetBuffer();
     ForgetBuffer(const ForgetBuffer&) = delete;
     ForgetBuffer& operator=(const ForgetBuffer&) = delete;

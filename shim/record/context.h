@@ -1,5 +1,6 @@
 // What the recorder keeps: per thread, per context, per share group, per frame.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -30,7 +31,8 @@ struct ShareGroup {
     std::unordered_map<GLuint, List> lists;
     int recording = 0;               ///< contexts of the group that record a frame
     std::vector<ListChange> changes; ///< since the first of them began; emptied when the last has ended
-    int reading = 0; ///< contexts that record or compile: while there are any, `buffers` is true
+    /// Contexts that record or compile: while there are any, `buffers` is true, whichever context of the group changes one.
+    std::atomic<int> reading{0};
     std::unordered_map<GLuint, Blob>
         buffers; ///< copies of whole buffers, dropped when the program changes one
 };
@@ -197,6 +199,12 @@ extern thread_local Thread this_thread [[gnu::tls_model("initial-exec")]];
 inline Context* listening_context() {
     Context* context = this_thread.context;
     return context && context->listening() ? context : nullptr;
+}
+
+/// Of calls that change objects which a frame or list of another context of the share group may read.
+inline Context* changing_context() {
+    Context* context = this_thread.context;
+    return context && context->group->reading.load(std::memory_order_relaxed) > 0 ? context : nullptr;
 }
 
 /// Queries with defaults: a query that GL refuses leaves the default.

@@ -74,7 +74,7 @@ struct ChangesBound<member, call, at, R (*GlTable::*)(A...)> {
     static R record(A... arguments) {
         // Forgotten after the call, but looked up before: glUnmapBuffer and its kin leave the binding as it
         // is.
-        const ForgetBuffer after(listening_context(), std::get<at>(std::tuple<A...>(arguments...)),
+        const ForgetBuffer after(changing_context(), std::get<at>(std::tuple<A...>(arguments...)),
                                  by_target);
         return (this_thread.real->*member)(arguments...);
     }
@@ -86,7 +86,7 @@ template <auto member, GlCall call, std::size_t at, class = decltype(member)> st
 template <auto member, GlCall call, std::size_t at, class R, class... A>
 struct ChangesNamed<member, call, at, R (*GlTable::*)(A...)> {
     static R record(A... arguments) {
-        const ForgetBuffer after(listening_context(), std::get<at>(std::tuple<A...>(arguments...)), by_name);
+        const ForgetBuffer after(changing_context(), std::get<at>(std::tuple<A...>(arguments...)), by_name);
         return (this_thread.real->*member)(arguments...);
     }
     static constexpr PlayFunction play = nullptr;
@@ -96,7 +96,7 @@ struct ChangesNamed<member, call, at, R (*GlTable::*)(A...)> {
 template <auto member, GlCall call, class = decltype(member)> struct Packs;
 template <auto member, GlCall call, class R, class... A> struct Packs<member, call, R (*GlTable::*)(A...)> {
     static R record(A... arguments) {
-        const ForgetBuffer after(listening_context(), GL_PIXEL_PACK_BUFFER, by_target);
+        const ForgetBuffer after(changing_context(), GL_PIXEL_PACK_BUFFER, by_target);
         return (this_thread.real->*member)(arguments...);
     }
     static constexpr PlayFunction play = nullptr;

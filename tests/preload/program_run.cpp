@@ -46,10 +46,10 @@ Outcome run_program(const std::vector<std::string>& arguments, const Environment
     command.environment = {{"DISPLAY", x_server().display()},
                            {"LIBGL_ALWAYS_SOFTWARE", "1"},
                            {"LP_NUM_THREADS", "1"},
-                           {"ASAN_OPTIONS", "detect_leaks=0"},
+                           {"ASAN_OPTIONS", "detect_leaks=0:suppressions=" GLCAST_SUPPRESSIONS ".asan"},
                            {"UBSAN_OPTIONS", "halt_on_error=1:print_stacktrace=1"},
                            {"TSAN_OPTIONS", "halt_on_error=1:second_deadlock_stack=1:die_after_fork=0:"
-                                            "suppressions=" GLCAST_SUPPRESSIONS}};
+                                            "suppressions=" GLCAST_SUPPRESSIONS ".tsan"}};
     command.environment.insert(command.environment.end(), environment.begin(), environment.end());
     if (preload) command.environment.emplace_back("LD_PRELOAD", preload_list());
     return run(command);

@@ -96,6 +96,21 @@ TEST(Robustness, threads_draw_while_frames_are_cast) {
     EXPECT_TRUE(run.capture) << run.outcome.err;
 }
 
+/// A part of a frame may come from a context that another thread destroys while it is cast.
+TEST(Robustness, contexts_are_destroyed_while_they_are_cast) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_program({PASSING},
+                                        {{"GLCAST_OUT", folder / "%f.exr"},
+                                         {"GLCAST_N", "8"},
+                                         {"GLCAST_LAYERS", "1"},
+                                         {"GLCAST_EVERY", "1"},
+                                         {"GLCAST_CAPTURES", "0"}},
+                                        true);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.signal << " " << outcome.err;
+    EXPECT_TRUE(says(outcome, "captured")) << outcome.err;
+    EXPECT_FALSE(says(outcome, "nothing captured")) << outcome.err;
+}
+
 TEST(Robustness, nothing_is_left_of_a_capture_that_is_killed) {
     const TemporaryFolder folder;
     const std::string status = folder / "status";
