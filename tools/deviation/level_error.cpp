@@ -2,12 +2,15 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "tools/deviation/area_samples.h"
@@ -26,8 +29,35 @@ struct Probe {
     Shown shown;
 };
 
+/// The low ten bits, two zeros behind each.
+std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | x << 16) & 0x30000ff;
+    x = (x | x << 8) & 0x300f00f;
+    x = (x | x << 4) & 0x30c30c3;
+    return (x | x << 2) & 0x9249249;
+}
+
+/// In Morton's order: what one search has read of a large tree, the next finds in the caches.
+std::vector<AreaSample> neighbours_together(const std::vector<AreaSample>& samples) {
+    if (samples.empty()) return samples;
+    glm::dvec3 low = samples[0].position, high = low;
+    for (const AreaSample& s : samples) low = glm::min(low, s.position), high = glm::max(high, s.position);
+    const glm::dvec3 size = high - low;
+    const double cells = 1023 / std::max({size.x, size.y, size.z, std::numeric_limits<double>::min()});
+    std::vector<std::uint64_t> order(samples.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const glm::uvec3 cell((samples[i].position - low) * cells);
+        const std::uint32_t code = spread_bits(cell.x) | spread_bits(cell.y) << 1 | spread_bits(cell.z) << 2;
+        order[i] = std::uint64_t(code) << 32 | i;
+    }
+    tbb::parallel_sort(order);
+    std::vector<AreaSample> sorted(samples.size());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = samples[std::uint32_t(order[i])];
+    return sorted;
+}
+
 std::vector<Probe> probes(const Level& level) {
-    const std::vector<AreaSample> samples = area_samples(level.mesh, points_a_side);
+    const std::vector<AreaSample> samples = neighbours_together(area_samples(level.mesh, points_a_side));
     std::vector<Probe> all(samples.size());
     tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
         all[i] = {samples[i], shown(level, samples[i].triangle, samples[i].weights)};
@@ -74,11 +104,43 @@ std::vector<Differences> differences(const std::vector<Probe>& from, const Level
     return all;
 }
 
+/// A triangle, for the question whether a point right above or below it is near.
+struct Prism {
+    glm::dvec3 corner{0}, normal{0}, weight[2]{};
+    double slack = std::numeric_limits<double>::infinity(); ///< of rounding; where there is no area, all
+
+    Prism() = default;
+    explicit Prism(const std::array<glm::dvec3, 3>& p) : corner(p[0]) {
+        const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0], across = cross(a, b);
+        const double square = dot(across, across);
+        if (!(square > 0)) return;
+        normal = across / std::sqrt(square);
+        weight[0] = cross(b, across) / square;
+        weight[1] = cross(across, a) / square;
+        slack = 1e-9 * std::sqrt(std::max(dot(a, a), dot(b, b)));
+    }
+    bool surely_within(const glm::dvec3& point, double distance) const {
+        const glm::dvec3 from = point - corner;
+        const double w1 = dot(weight[0], from), w2 = dot(weight[1], from);
+        return std::abs(dot(normal, from)) + slack <= distance && w1 >= 0 && w2 >= 0 && w1 + w2 <= 1;
+    }
+};
+
 /// The triangles that were nearest to the last few points.
 class Recent {
   public:
-    explicit Recent(std::uint32_t first) { triangles.fill(first); }
-    void add(std::uint32_t triangle) { triangles[next++ % triangles.size()] = triangle; }
+    Recent(const SurfaceIndex& index, std::uint32_t first) {
+        triangles.fill(first);
+        prisms.fill(Prism(index.corners(first)));
+    }
+    void add(const SurfaceIndex& index, std::uint32_t triangle) {
+        prisms[next % prisms.size()] = Prism(index.corners(triangle));
+        triangles[next++ % triangles.size()] = triangle;
+    }
+    bool surely_within(const glm::dvec3& point, double distance) const {
+        return std::any_of(prisms.begin(), prisms.end(),
+                           [&](const Prism& prism) { return prism.surely_within(point, distance); });
+    }
     SurfaceIndex::Nearest nearest(const SurfaceIndex& index, const glm::dvec3& point,
                                   double good_enough) const {
         SurfaceIndex::Nearest best{INFINITY, triangles[0]};
@@ -92,6 +154,7 @@ class Recent {
 
   private:
     std::array<std::uint32_t, 4> triangles;
+    std::array<Prism, 4> prisms;
     std::size_t next = triangles.size();
 };
 
@@ -100,13 +163,14 @@ class Recent {
 double farthest(const std::vector<glm::dvec3>& vertices, const SurfaceIndex& index, double least) {
     std::atomic<double> largest = least;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), piece), [&](const auto& range) {
-        Recent recent(index.nearest(vertices[range.begin()]).triangle);
+        Recent recent(index, index.nearest(vertices[range.begin()]).triangle);
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
             double known = largest.load(std::memory_order_relaxed);
+            if (recent.surely_within(vertices[v], known)) continue;
             const SurfaceIndex::Nearest bound = recent.nearest(index, vertices[v], known);
             if (bound.distance <= known) continue;
             const SurfaceIndex::Nearest found = index.nearest(vertices[v], bound.triangle);
-            recent.add(found.triangle);
+            recent.add(index, found.triangle);
             while (found.distance > known && !largest.compare_exchange_weak(known, found.distance)) {
             }
         }

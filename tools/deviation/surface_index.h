@@ -2,6 +2,7 @@
 #pragma once
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <memory>
 #include <span>
 
@@ -32,6 +33,10 @@ class SurfaceIndex {
     Nearest nearest_facing(const glm::dvec3& point, const glm::dvec3& normal, const Nearest& nearest) const;
 
     double distance(const glm::dvec3& point, std::uint32_t triangle) const; ///< to one triangle
+    std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const {
+        const Triangle& t = mesh.triangles[triangle];
+        return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+    }
     bool faces(std::uint32_t triangle, const glm::dvec3& normal) const; ///< to less than a right angle
 
     /// Is there a free way from a point of the surface to the far outside in one of the directions? The ray

@@ -20,13 +20,6 @@ void add_word(std::string& file, std::uint32_t value) {
     file.append(reinterpret_cast<const char*>(&value), 4);
 }
 
-void add_chunk(std::string& file, std::uint32_t kind, std::string_view data, char filler) {
-    const std::size_t padding = (4 - data.size() % 4) % 4;
-    add_word(file, std::uint32_t(data.size() + padding));
-    add_word(file, kind);
-    file.append(data).append(padding, filler);
-}
-
 } // namespace
 
 GlbChunks glb_chunks(std::string_view file) {
@@ -43,17 +36,24 @@ GlbChunks glb_chunks(std::string_view file) {
     return chunks;
 }
 
+std::string glb_head(const nlohmann::ordered_json& json, std::size_t bytes) {
+    std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    text.append(glb_padding(text.size()), ' ');
+    const std::size_t padded = bytes + glb_padding(bytes), whole = 12 + 8 + text.size() + 8 + padded;
+    if (whole > UINT32_MAX) refuse("the mesh is too large for .glb (4 GB); write .ply");
+    std::string head = "glTF";
+    add_word(head, 2);
+    add_word(head, std::uint32_t(whole));
+    add_word(head, std::uint32_t(text.size()));
+    add_word(head, json_kind);
+    head.append(text);
+    add_word(head, std::uint32_t(padded));
+    add_word(head, bytes_kind);
+    return head;
+}
+
 std::string glb_file(const nlohmann::ordered_json& json, std::string_view bytes) {
-    const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    std::string file = "glTF";
-    add_word(file, 2);
-    add_word(file, 0);
-    add_chunk(file, json_kind, text, ' ');
-    add_chunk(file, bytes_kind, bytes, '\0');
-    if (file.size() > UINT32_MAX) refuse("the mesh is too large for .glb (4 GB); write .ply");
-    const std::uint32_t length = std::uint32_t(file.size());
-    std::memcpy(file.data() + 8, &length, 4);
-    return file;
+    return glb_head(json, bytes.size()).append(bytes).append(glb_padding(bytes.size()), '\0');
 }
 
 } // namespace glcast::format

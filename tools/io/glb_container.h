@@ -16,4 +16,8 @@ GlbChunks glb_chunks(std::string_view file);
 
 std::string glb_file(const nlohmann::ordered_json& json, std::string_view bytes);
 
+/// What stands before so many bytes; behind them come zeros up to a multiple of four.
+std::string glb_head(const nlohmann::ordered_json& json, std::size_t bytes);
+inline std::size_t glb_padding(std::size_t bytes) { return (4 - bytes % 4) % 4; }
+
 } // namespace glcast::format

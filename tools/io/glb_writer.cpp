@@ -10,6 +10,7 @@
 #include <streambuf>
 #include <tiny_gltf.h>
 
+#include "tools/io/glb_container.h"
 #include "tools/io/glb_extras.h"
 #include "tools/io/mesh_format.h"
 #include "tools/io/meshopt.h"
@@ -79,7 +80,7 @@ class GlbBuilder {
     int add_colours(const Mesh& mesh, const SeamSplit& split);
     int add_coordinates(const SeamSplit& split);
     int add_tangents(const SeamSplit& split);
-    int add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices, int target);
+    int add_indices(std::span<const std::uint32_t> indices, std::size_t vertices, int target);
     int add_image(const std::string& png, const std::string& name);
     int plain_material();
     int textured_material(const std::string& name, const Pngs& pngs);
@@ -211,9 +212,9 @@ int GlbBuilder::add_tangents(const SeamSplit& split) {
     return add_attribute(data, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_BYTE, true);
 }
 
-int GlbBuilder::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices, int target) {
+int GlbBuilder::add_indices(std::span<const std::uint32_t> indices, std::size_t vertices, int target) {
     if (vertices > 65535)
-        return add_accessor(add_view(indices, target), TINYGLTF_TYPE_SCALAR,
+        return add_accessor(add_view(indices.data(), indices.size_bytes(), target), TINYGLTF_TYPE_SCALAR,
                             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, indices.size());
     const std::vector<std::uint16_t> data(indices.begin(), indices.end());
     return add_accessor(add_view(data, target), TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
@@ -278,9 +279,7 @@ tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mes
         primitive.attributes["TANGENT"] = add_tangents(split);
         primitive.material = textured_material(level.name, pngs);
     }
-    std::vector<std::uint32_t> indices;
-    indices.reserve(split.triangles.size() * 3);
-    for (const Triangle& t : split.triangles) indices.insert(indices.end(), t.begin(), t.end());
+    const std::span<const std::uint32_t> indices(split.triangles.data()->data(), split.triangles.size() * 3);
     primitive.indices = add_indices(indices, split.vertices(mesh), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     return primitive;
 }
@@ -343,6 +342,20 @@ class FileBuffer : public std::streambuf {
     OutputFile& file;
 };
 
+/// tinygltf copies the buffer before it writes it: so it makes the JSON alone.
+bool write_model(std::ostream& stream, tinygltf::Model&& model) {
+    const std::vector<unsigned char> bytes = std::move(model.buffers[0].data);
+    model.buffers[0].data.clear();
+    std::ostringstream without;
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, without, false, true)) return false;
+    nlohmann::ordered_json json = glb_chunks(without.view()).json;
+    json["buffers"][0]["byteLength"] = bytes.size();
+    stream << glb_head(json, bytes.size());
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    for (std::size_t k = glb_padding(bytes.size()); k > 0; --k) stream.put('\0');
+    return stream.good();
+}
+
 /// Uncompressed; false when the stream does not take it.
 bool write_to(std::ostream& stream, std::span<const Level> levels, Compression compression,
               const PositionGrid* grid, const std::function<void()>& await_errors) {
@@ -359,7 +372,7 @@ bool write_to(std::ostream& stream, std::span<const Level> levels, Compression c
     if (await_errors) await_errors();
     builder.add_errors(levels);
     builder.add_scene(levels);
-    return tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model, stream, false, true) && stream.good();
+    return write_model(stream, std::move(builder.model));
 }
 
 } // namespace

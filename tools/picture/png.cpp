@@ -35,23 +35,25 @@ std::uint8_t paeth(int left, int up, int corner) {
 
 void filter(int kind, const std::uint8_t* row, const std::uint8_t* above, std::size_t step, Row& out) {
     const std::size_t width = out.size();
-    const auto left = [&](std::size_t x) { return x < step ? 0 : row[x - step]; };
+    std::uint8_t* to = out.data();
     switch (kind) {
     case 1:
-        for (std::size_t x = 0; x < width; ++x) out[x] = std::uint8_t(row[x] - left(x));
+        for (std::size_t x = 0; x < step; ++x) to[x] = row[x];
+        for (std::size_t x = step; x < width; ++x) to[x] = std::uint8_t(row[x] - row[x - step]);
         break;
     case 2:
-        for (std::size_t x = 0; x < width; ++x) out[x] = std::uint8_t(row[x] - above[x]);
+        for (std::size_t x = 0; x < width; ++x) to[x] = std::uint8_t(row[x] - above[x]);
         break;
     default:
-        for (std::size_t x = 0; x < width; ++x)
-            out[x] = std::uint8_t(row[x] - paeth(left(x), above[x], x < step ? 0 : above[x - step]));
+        for (std::size_t x = 0; x < step; ++x) to[x] = std::uint8_t(row[x] - above[x]);
+        for (std::size_t x = step; x < width; ++x)
+            to[x] = std::uint8_t(row[x] - paeth(row[x - step], above[x], above[x - step]));
     }
 }
 
 std::uint64_t size_of(const Row& row) {
-    std::uint64_t sum = 0;
-    for (const std::uint8_t byte : row) sum += std::uint64_t(std::abs(int(std::int8_t(byte))));
+    std::uint32_t sum = 0; // a row has far less than 2^25 bytes
+    for (const std::uint8_t byte : row) sum += std::uint32_t(std::abs(int(std::int8_t(byte))));
     return sum;
 }
 

@@ -19,9 +19,16 @@ constexpr double reach_of_closing = 2;   // samples between a vertex and the clo
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
 struct Pixel {
-    float weight, distance;
-    glm::vec3 plane, normal, colour;
+    float weight, score;
+    std::uint32_t hit;
+    glm::vec3 plane, normal;
 };
+
+/// std::floor is a call where the processor need not have SSE 4.1.
+int whole_below(double x) {
+    const int cut = int(x);
+    return cut - (x < cut);
+}
 
 glm::vec3 unit_or_zero(const glm::vec3& v) {
     const float length = glm::length(v);
@@ -39,21 +46,21 @@ template <int axis> class Opinion {
         : hits(rays.axis[axis]), n(rays.n), side(side), at(at) {}
 
     Attribute mix() {
-        const int u = int(std::floor(at[axes.u])), v = int(std::floor(at[axes.v]));
+        const int u = whole_below(at[axes.u]), v = whole_below(at[axes.v]);
         for (int k = 0; k < 4; ++k) consider(u + (k & 1), v + (k >> 1));
         Attribute out;
         if (!count) return out;
-        const auto score = [](const Pixel& p) { return p.weight / (0.05f + p.distance); };
-        const Pixel& best =
-            *std::max_element(pixels, pixels + count, [&](auto& p, auto& q) { return score(p) < score(q); });
+        const Pixel* best = pixels;
+        for (int k = 1; k < count; ++k)
+            if (pixels[k].score > best->score) best = pixels + k;
         float weights = 0;
         for (int k = 0; k < count; ++k) {
             const Pixel& p = pixels[k];
-            if (glm::dot(p.plane, best.plane) < same_facet) continue;
-            if (best.normal != glm::vec3(0) && glm::dot(p.normal, best.normal) < same_facet) continue;
-            out.colour += p.colour * p.weight;
+            if (glm::dot(p.plane, best->plane) < same_facet) continue;
+            if (best->normal != glm::vec3(0) && glm::dot(p.normal, best->normal) < same_facet) continue;
+            out.colour += unpack_colour(hits.colour[p.hit]) * p.weight;
             out.normal += p.normal * p.weight;
-            out.plane += (glm::dot(p.plane, best.plane) < 0 ? -p.plane : p.plane) * p.weight;
+            out.plane += p.plane * p.weight;
             weights += p.weight;
         }
         out.colour /= weights;
@@ -71,16 +78,17 @@ template <int axis> class Opinion {
         if (u < 0 || v < 0 || u >= n || v >= n) return;
         const std::size_t p = std::size_t(v) * n + u;
         const std::uint32_t end = hits.start[p + 1];
+        glm::vec3 from_hit;
         const double away_u = at[axes.u] - u, away_v = at[axes.v] - v;
+        from_hit[axes.u] = float(away_u);
+        from_hit[axes.v] = float(away_v);
         float least = agreement;
         glm::vec3 plane_there{0};
         std::uint32_t best = end;
         for (std::uint32_t i = hits.start[p]; i < end; ++i) {
-            if (!hits.plane[i] || std::abs(at[axes.depth] - hits.depth[i]) > reach) continue;
-            glm::vec3 from_hit;
-            from_hit[axes.u] = float(away_u);
-            from_hit[axes.v] = float(away_v);
-            from_hit[axes.depth] = float(at[axes.depth] - hits.depth[i]);
+            const double deeper = at[axes.depth] - hits.depth[i];
+            if (std::abs(deeper) > reach || !hits.plane[i]) continue;
+            from_hit[axes.depth] = float(deeper);
             const glm::vec3 plane = unpack_normal(hits.plane[i]);
             const float distance = std::abs(glm::dot(plane, from_hit));
             const bool nearer = distance < least - same_place;
@@ -92,10 +100,10 @@ template <int axis> class Opinion {
         if (best == end) return;
         Pixel& pixel = pixels[count++];
         pixel.weight = float((1 - std::abs(away_u)) * (1 - std::abs(away_v))) + 1e-6f;
-        pixel.distance = least;
+        pixel.score = pixel.weight / (0.05f + least);
+        pixel.hit = best;
         pixel.plane = plane_there;
         pixel.normal = drawn_normal(hits, best);
-        pixel.colour = unpack_colour(hits.colour[best]);
     }
 
     static constexpr ImageAxes axes = image_axes(Axis(axis));

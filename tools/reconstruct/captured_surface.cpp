@@ -20,6 +20,12 @@ constexpr float same_way = 0.2f;    // cosine between the asked and the found fa
 constexpr float across_line = 0.3f; // cosine: a line nearer to a plane's own directions is not followed
 constexpr float same_place = 1e-3f; // samples: the two sides of a sheet
 
+/// As lround, which is a call; halves below zero go up.
+int nearest_whole(double x) {
+    const int cut = int(x + 0.5);
+    return cut - (x + 0.5 < cut);
+}
+
 /// A hit and the plane through it, outward.
 struct Plane {
     glm::dvec3 at{0}; ///< samples
@@ -48,7 +54,8 @@ template <int axis> class Walk {
             const double far = glm::dot(glm::dvec3(next->normal), next->at - from) / slope;
             if (std::abs(far) > reach) break;
             const glm::dvec3 to = from + far * glm::dvec3(along);
-            const bool done = glm::distance(to, at) < arrived;
+            const glm::dvec3 stride = to - at;
+            const bool done = glm::dot(stride, stride) < arrived * arrived;
             at = to;
             if (done) break;
         }
@@ -59,7 +66,7 @@ template <int axis> class Walk {
   private:
     /// The hit of the pixel at a point that faces our side, nearest in depth to `depth`.
     std::optional<Plane> nearest(const glm::dvec3& at, double depth, double reach) const {
-        const int u = int(std::lround(at[axes.u])), v = int(std::lround(at[axes.v]));
+        const int u = nearest_whole(at[axes.u]), v = nearest_whole(at[axes.v]);
         if (u < 0 || v < 0 || u >= rays.n || v >= rays.n) return std::nullopt;
         const std::size_t pixel = std::size_t(v) * rays.n + u;
         const std::uint32_t wanted = side ? seen_from_plus : seen_from_minus;

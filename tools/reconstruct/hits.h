@@ -40,16 +40,22 @@ inline std::size_t pixel_of(int a, const std::array<int, 3>& s, int n) {
 /// Unit vector in 32 bits (octahedral, 3e-5 radians); never 0.
 std::uint32_t pack_normal(const glm::vec3& unit);
 inline glm::vec3 unpack_normal(std::uint32_t packed) {
-    const auto fold = [](float a, float b) { return (1 - std::abs(b)) * (a >= 0 ? 1.0f : -1.0f); };
-    const float a = (float(packed >> 16) - 32768) / 32767, b = (float(packed & 0xffff) - 32768) / 32767;
-    const float z = 1 - std::abs(a) - std::abs(b);
-    return glm::normalize(z < 0 ? glm::vec3(fold(a, b), fold(b, a), z) : glm::vec3(a, b, z));
+    const float a = (float(std::int32_t(packed >> 16)) - 32768) / 32767,
+                b = (float(std::int32_t(packed & 0xffff)) - 32768) / 32767;
+    const float z = 1 - std::abs(a) - std::abs(b); // both ways, so that nothing branches
+    const float folded_a = std::copysign(1 - std::abs(b), a), folded_b = std::copysign(1 - std::abs(a), b);
+    return glm::normalize(glm::vec3(z < 0 ? folded_a : a, z < 0 ? folded_b : b, z));
 }
 /// 0..1 with ten bits a channel: every 8-bit colour comes back as it was.
 std::uint32_t pack_colour(const glm::vec3& colour);
+/// Of the 1024 values of a channel.
+inline constexpr auto unpacked_channel = [] {
+    std::array<float, 1024> values{};
+    for (int c = 0; c < 1024; ++c) values[std::size_t(c)] = float(c) / 1020;
+    return values;
+}();
 inline glm::vec3 unpack_colour(std::uint32_t packed) {
-    const auto ten = [](std::uint32_t c) { return float(c & 1023) / 1020; };
-    return {ten(packed >> 20), ten(packed >> 10), ten(packed)};
+    return {unpacked_channel[packed >> 20 & 1023], unpacked_channel[packed >> 10 & 1023], unpacked_channel[packed & 1023]};
 }
 
 /// Takes the images of a capture one at a time, in any order, so that they need not be in memory together.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <stdexcept>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -44,21 +43,25 @@ void check(const Mesh& mesh, const CapturedSurface& captured, const TextureOptio
 
 glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     const float length = glm::length(v);
-    return length > 1e-6f ? v / length : otherwise;
+    return length > 1e-6f ? v * (1 / length) : otherwise;
 }
 
 /// A normal in the tangent frame of a point as viewers make it: the interpolated normal, tangent and
 /// bitangent, each of unit length again, though no longer square to one another.
 glm::vec3 in_frame(const glm::vec3& wanted, const glm::vec3& normal, const glm::vec3& tangent,
                    const glm::vec3& bitangent) {
-    glm::mat3 frame(tangent, bitangent, normal);
-    if (std::abs(glm::determinant(frame)) < flat_frame) {
+    const glm::vec3 square_to_tangent = glm::cross(bitangent, normal);
+    const float determinant = glm::dot(tangent, square_to_tangent);
+    if (std::abs(determinant) < flat_frame) {
         const glm::vec3 t = unit_or(tangent - normal * glm::dot(normal, tangent), tangent);
-        frame = glm::mat3(t, glm::cross(normal, t), normal);
+        glm::mat3 frame(t, glm::cross(normal, t), normal);
         if (glm::dot(frame[1], bitangent) < 0) frame[1] = -frame[1];
         return unit_or(wanted * frame, {0, 0, 1}); // its transpose: the inverse of what is square
     }
-    return unit_or(glm::inverse(frame) * wanted, {0, 0, 1});
+    // Cramer's rule; of the determinant the sign is enough, as the length is 1 again.
+    const glm::vec3 within(glm::dot(square_to_tangent, wanted), glm::dot(glm::cross(normal, tangent), wanted),
+                           glm::dot(glm::cross(tangent, bitangent), wanted));
+    return unit_or(determinant < 0 ? -within : within, {0, 0, 1});
 }
 
 void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
@@ -76,8 +79,9 @@ class Baker {
         bool covered, seen; ///< the texel's centre is on the triangle; a ray saw the surface there
     };
     Done bake(int x, int y, std::uint32_t t) {
+        if (t != facet.triangle) facet = facet_of(t);
         const Triangle& v = mesh.triangles[t];
-        const TrianglePoint nearest = in_triangle(x, y, t);
+        const TrianglePoint nearest = in_triangle(x, y);
         const glm::dvec3& w = nearest.weights;
         const glm::vec3 weight(w);
         const glm::dvec3 point =
@@ -97,29 +101,46 @@ class Baker {
                                           : mix(mesh.colours[v[0]], mesh.colours[v[1]], mesh.colours[v[2]]);
         put(texture.colour, texel, colour);
         put(texture.normal, texel,
-            0.5f + 0.5f * (seen.found ? encoded(t, v, mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
+            0.5f + 0.5f * (seen.found ? encoded(mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
         return {std::abs(nearest.point.x - x - 0.5) + std::abs(nearest.point.y - y - 0.5) < 1e-6, seen.found};
     }
 
   private:
+    /// What the texels of one triangle share, which mostly follow one another.
+    struct Facet {
+        std::uint32_t triangle = no_triangle;
+        std::array<glm::dvec2, 3> corners;
+        glm::dvec2 slope[2]; ///< of the weights of corners 1 and 2; 0: it has no area
+        glm::vec3 tangent[3], bitangent[3];
+    };
+    Facet facet_of(std::uint32_t t) const {
+        Facet made{t, in_atlas(mesh, layout.charts, layout.atlas, t), {}, {}, {}};
+        const glm::dvec2 a = made.corners[1] - made.corners[0], b = made.corners[2] - made.corners[0];
+        if (const double area = a.x * b.y - a.y * b.x; area != 0) {
+            made.slope[0] = glm::dvec2(b.y, -b.x) / area;
+            made.slope[1] = glm::dvec2(-a.y, a.x) / area;
+        }
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec4& own = texture.tangents[t][k];
+            made.tangent[k] = glm::vec3(own);
+            made.bitangent[k] = own.w * glm::cross(mesh.normals[mesh.triangles[t][k]], made.tangent[k]);
+        }
+        return made;
+    }
+
     /// The texel's centre, or the nearest point of the triangle.
-    TrianglePoint in_triangle(int x, int y, std::uint32_t t) const {
-        const auto c = in_atlas(mesh, layout.charts, layout.atlas, t);
-        return nearest_in_triangle({x + 0.5, y + 0.5, 0}, {c[0].x, c[0].y, 0}, {c[1].x, c[1].y, 0},
-                                   {c[2].x, c[2].y, 0});
+    TrianglePoint in_triangle(int x, int y) const {
+        const glm::dvec2 centre(x + 0.5, y + 0.5), from = centre - facet.corners[0];
+        const double w1 = glm::dot(facet.slope[0], from), w2 = glm::dot(facet.slope[1], from);
+        if (w1 > 0 && w2 > 0 && w1 + w2 < 1) return {{1 - w1 - w2, w1, w2}, {centre, 0}};
+        const auto& c = facet.corners;
+        return nearest_in_triangle({centre, 0}, {c[0], 0}, {c[1], 0}, {c[2], 0});
     }
 
     template <class Mix>
-    glm::vec3 encoded(std::uint32_t t, const Triangle& v, const Mix& mix, const glm::vec3& normal,
-                      const glm::vec3& wanted) const {
-        glm::vec3 tangent[3], bitangent[3];
-        for (int k = 0; k < 3; ++k) {
-            const glm::vec4& own = texture.tangents[t][k];
-            tangent[k] = glm::vec3(own);
-            bitangent[k] = own.w * glm::cross(mesh.normals[v[k]], tangent[k]);
-        }
-        return in_frame(wanted, normal, unit_or(mix(tangent[0], tangent[1], tangent[2]), tangent[0]),
-                        unit_or(mix(bitangent[0], bitangent[1], bitangent[2]), bitangent[0]));
+    glm::vec3 encoded(const Mix& mix, const glm::vec3& normal, const glm::vec3& wanted) const {
+        const auto &t = facet.tangent, &b = facet.bitangent;
+        return in_frame(wanted, normal, unit_or(mix(t[0], t[1], t[2]), t[0]), unit_or(mix(b[0], b[1], b[2]), b[0]));
     }
 
     const Mesh& mesh;
@@ -127,6 +148,7 @@ class Baker {
     const Layout& layout;
     Texture& texture;
     const double reach;
+    Facet facet{};
 };
 
 Picture blank(int size) { return {size, size, std::vector<std::uint8_t>(std::size_t(size) * size * 3)}; }

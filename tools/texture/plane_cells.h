@@ -7,6 +7,13 @@
 
 namespace glcast {
 
+/// std::floor and std::ceil are calls where the processor need not have SSE 4.1.
+inline int whole_below(double x) {
+    const int cut = int(x);
+    return cut - (x < cut);
+}
+inline int whole_above(double x) { return -whole_below(-x); }
+
 /// Calls visit(x, y) for the whole-numbered points inside the triangle, whichever way it turns: strictly
 /// inside, farther from its sides than `inset` (negative: outside too); while it returns true.
 template <class Visit> void for_cells(const std::array<glm::dvec2, 3>& corners, double inset, Visit visit) {
@@ -25,14 +32,14 @@ template <class Visit> void for_cells(const std::array<glm::dvec2, 3>& corners, 
             -(sides[k].x * p.x + sides[k].y * p.y) -
             inset * (std::abs(sides[k].x) + std::abs(sides[k].y)); // its length, or up to 1.41 times
     }
-    const int x0 = int(std::ceil(std::min({a.x, b.x, c.x}) - 1e-6)),
-              x1 = int(std::floor(std::max({a.x, b.x, c.x}) + 1e-6));
-    const int y0 = int(std::ceil(std::min({a.y, b.y, c.y}) - 1e-6)),
-              y1 = int(std::floor(std::max({a.y, b.y, c.y}) + 1e-6));
+    const int x0 = whole_above(std::min({a.x, b.x, c.x}) - 1e-6),
+              x1 = whole_below(std::max({a.x, b.x, c.x}) + 1e-6);
+    const int y0 = whole_above(std::min({a.y, b.y, c.y}) - 1e-6),
+              y1 = whole_below(std::max({a.y, b.y, c.y}) + 1e-6);
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) {
             bool inside = true;
-            for (const Side& s : sides) inside = inside && s.x * x + s.y * y + s.rest > 0;
+            for (const Side& s : sides) inside &= s.x * x + s.y * y + s.rest > 0;
             if (inside && !visit(x, y)) return;
         }
 }

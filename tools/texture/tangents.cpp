@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -14,7 +15,7 @@ using Coordinates = std::vector<std::array<glm::vec2, 3>>;
 
 glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     const double length = glm::length(v);
-    return length > 1e-30 ? v / length : glm::dvec3(0);
+    return length > 1e-30 ? v * (1 / length) : glm::dvec3(0);
 }
 glm::dvec3 flattened(const glm::dvec3& normal, const glm::dvec3& v) {
     return v - normal * glm::dot(normal, v);
@@ -37,6 +38,7 @@ class Tangents {
         : mesh(mesh), neighbours(neighbours), chart_of(chart_of), coordinates(coordinates), out(out) {}
 
     void at(std::uint32_t vertex, Fan& fan) const {
+        if (set_whole_ring(vertex, fan)) return; // most
         const auto around = neighbours.around(vertex);
         fan.corners.assign(around.begin(), around.end());
         fan.group.resize(fan.corners.size());
@@ -55,6 +57,48 @@ class Tangents {
     }
     bool mirrored(std::uint32_t t) const { return turn(t) > 0; }
 
+    /// Of a vertex whose triangles go once around it and are all of one group; false where they do not. Each edge
+    /// between two of them is looked at once.
+    bool set_whole_ring(std::uint32_t vertex, Fan& fan) const {
+        const auto around = neighbours.around(vertex);
+        if (around.empty()) return true;
+        const std::uint32_t first = around[0] / 3;
+        const std::uint32_t chart = chart_of[first];
+        const bool turned = mirrored(first);
+        const glm::dvec3 normal(mesh.normals[vertex]), &middle = mesh.positions[vertex];
+        std::uint32_t t = first, k = around[0] % 3, shared = mesh.triangles[t][(k + 2) % 3];
+        glm::dvec3 sum(0), before = flattened(normal, mesh.positions[shared] - middle);
+        double length_before = glm::length(before);
+        fan.corners.clear();
+        do {
+            const Triangle& v = mesh.triangles[t];
+            k = v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+            if (v[(k + 2) % 3] != shared || chart_of[t] != chart || mirrored(t) != turned) return false;
+            fan.corners.push_back(3 * t + k);
+            if (fan.corners.size() > around.size()) return false;
+            shared = v[(k + 1) % 3];
+            const glm::dvec3 after = flattened(normal, mesh.positions[shared] - middle);
+            const double length_after = glm::length(after);
+            sum += unit_or_zero(along_x(t, k, after, before)) *
+                   angle(glm::dot(before, after), length_before * length_after);
+            before = after, length_before = length_after;
+            t = neighbours.across[t][k];
+            if (t == no_triangle) return false;
+        } while (t != first);
+        if (fan.corners.size() != around.size()) return false;
+        set_all(fan.corners, tangent_along(sum, normal), turned);
+        return true;
+    }
+
+    static double angle(double dot, double lengths) {
+        return std::acos(lengths > 0 ? std::clamp(dot / lengths, -1.0, 1.0) : 0);
+    }
+
+    void set_all(std::span<const std::uint32_t> corners, const glm::vec3& tangent, bool turned) const {
+        const glm::vec4 value(tangent, turned ? -1.0f : 1.0f);
+        for (const std::uint32_t corner : corners) out[corner / 3][corner % 3] = value;
+    }
+
     void join_across(Fan& fan, std::uint32_t i) const {
         const std::uint32_t t = fan.corners[i] / 3, k = fan.corners[i] % 3;
         const std::uint32_t other = neighbours.across[t][k]; // each edge once: the others are theirs
@@ -63,38 +107,38 @@ class Tangents {
             if (fan.corners[j] / 3 == other) fan.join(i, j);
     }
 
-    /// Where x grows in the triangle, of any length.
-    glm::dvec3 along_x(std::uint32_t t) const {
-        const Triangle& v = mesh.triangles[t];
+    /// Where x grows in the triangle, of any length: by its edges from corner k to the next and the one after.
+    glm::dvec3 along_x(std::uint32_t t, std::uint32_t k, const glm::dvec3& to_next, const glm::dvec3& to_last) const {
         const auto& c = coordinates[t];
-        const glm::dvec2 a = c[1] - c[0], b = c[2] - c[0];
-        const glm::dvec3 d = mesh.positions[v[1]] - mesh.positions[v[0]],
-                         e = mesh.positions[v[2]] - mesh.positions[v[0]];
-        const double area = a.x * b.y - a.y * b.x;
-        return area == 0 ? glm::dvec3(0) : (b.y * d - a.y * e) / area;
+        const glm::dvec2 next = c[(k + 1) % 3] - c[k], last = c[(k + 2) % 3] - c[k];
+        const double area = next.x * last.y - next.y * last.x;
+        if (area == 0) return glm::dvec3(0);
+        const glm::dvec3 way = last.y * to_next - next.y * to_last;
+        return area < 0 ? -way : way;
+    }
+
+    static glm::vec3 tangent_along(const glm::dvec3& sum, const glm::dvec3& normal) {
+        if (const glm::dvec3 tangent = unit_or_zero(sum); tangent != glm::dvec3(0)) return glm::vec3(tangent);
+        return glm::vec3(unit_or_zero( // nothing to go by: any direction square to the normal
+            flattened(normal, std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0))));
     }
 
     void set_group(std::uint32_t vertex, const Fan& fan, std::uint32_t group) const {
-        const glm::dvec3 normal(mesh.normals[vertex]);
+        const glm::dvec3 normal(mesh.normals[vertex]), &middle = mesh.positions[vertex];
         glm::dvec3 sum(0);
         for (std::uint32_t i = 0; i < fan.corners.size(); ++i) {
             if (fan.group[i] != group) continue;
             const std::uint32_t t = fan.corners[i] / 3, k = fan.corners[i] % 3;
             const Triangle& v = mesh.triangles[t];
-            const glm::dvec3 a = flattened(normal, mesh.positions[v[(k + 2) % 3]] - mesh.positions[v[k]]),
-                             b = flattened(normal, mesh.positions[v[(k + 1) % 3]] - mesh.positions[v[k]]);
-            const double lengths = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
-            const double cosine = lengths > 0 ? std::clamp(glm::dot(a, b) / lengths, -1.0, 1.0) : 0;
-            sum += unit_or_zero(flattened(normal, along_x(t))) * std::acos(cosine);
+            const glm::dvec3 next = flattened(normal, mesh.positions[v[(k + 1) % 3]] - middle),
+                             last = flattened(normal, mesh.positions[v[(k + 2) % 3]] - middle);
+            sum += unit_or_zero(along_x(t, k, next, last)) *
+                   angle(glm::dot(next, last), glm::length(next) * glm::length(last));
         }
-        glm::dvec3 tangent = unit_or_zero(sum);
-        if (tangent == glm::dvec3(0)) // nothing to go by: any direction square to the normal
-            tangent = unit_or_zero(
-                flattened(normal, std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::vec3 tangent = tangent_along(sum, normal);
         for (std::uint32_t i = 0; i < fan.corners.size(); ++i)
             if (fan.group[i] == group)
-                out[fan.corners[i] / 3][fan.corners[i] % 3] =
-                    glm::vec4(glm::vec3(tangent), mirrored(fan.corners[i] / 3) ? -1.0f : 1.0f);
+                set_all({&fan.corners[i], 1}, tangent, mirrored(fan.corners[i] / 3));
     }
 
     const Mesh& mesh;

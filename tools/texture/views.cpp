@@ -35,12 +35,24 @@ std::vector<glm::vec3> smoothed(const Neighbours& neighbours, const std::vector<
     return out;
 }
 
+/// No other view can score higher where all three neighbours have this one, and it may have it.
+bool settled(const glm::vec3& smooth, const std::array<std::uint32_t, 3>& across,
+             const std::vector<ViewNumber>& before, ViewNumber view) {
+    for (std::uint32_t other : across)
+        if (other == no_triangle || before[other] != view) return false;
+    return facing(smooth, view) > 1.001f - 3 * smoothness;
+}
+
 /// One sweep; every triangle looks at what the others were before it.
 void sweep(const std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& smooth,
            const Neighbours& neighbours, float border, const std::vector<ViewNumber>& before,
            std::vector<ViewNumber>& after) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), 4096), [&](const auto& range) {
         for (std::size_t t = range.begin(); t < range.end(); ++t) {
+            if (border > 0 && settled(smooth[t], neighbours.across[t], before, before[t])) {
+                after[t] = before[t];
+                continue;
+            }
             float score[view_count];
             for (int view = 0; view < view_count; ++view) score[view] = facing(smooth[t], ViewNumber(view));
             if (border > 0)
