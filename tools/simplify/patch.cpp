@@ -1,20 +1,10 @@
 #include "tools/simplify/patch.h"
 
-#include <bit>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
 namespace glcast {
 namespace {
-
-/// Cost and edge in one number that sorts by cost, then by edge: floats that are not negative sort like their
-/// bits. Half the size of a pair, and a heap of plain numbers is several times as fast as one that looks
-/// costs up.
-std::uint64_t entry_of(double cost, std::uint32_t edge) {
-    return std::uint64_t(std::bit_cast<std::uint32_t>(float(cost))) << 32 | edge;
-}
-std::uint32_t edge_of(std::uint64_t entry) { return std::uint32_t(entry & UINT32_MAX); }
 
 /// Squared; 1 is equilateral.
 double squared_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double squared_normal) {
@@ -104,32 +94,22 @@ template <int N> std::vector<float> Patch<N>::costs() const {
 
 template <int N> void Patch<N>::queue_edges(float dearest) {
     most = dearest;
-    heap.clear();
+    queue.start(half.size(), in_exact_order);
     for (std::uint32_t e = 0; e < half.size(); ++e)
-        if (const double cost = place_edge(half[e]).cost; float(cost) <= most)
-            heap.push_back(entry_of(cost, e));
-    std::make_heap(heap.begin(), heap.end(), std::greater<>());
+        if (const float cost = float(place_edge(half[e]).cost); cost <= most) queue.add(cost, e);
+    queue.put_in_order();
 }
 
 template <int N> void Patch<N>::push(std::uint32_t e, double cost) {
-    if (float(cost) > most) return;
-    heap.push_back(entry_of(cost, e));
-    std::push_heap(heap.begin(), heap.end(), std::greater<>());
-}
-
-template <int N> typename Patch<N>::Entry Patch<N>::pop() {
-    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
-    const Entry entry = heap.back();
-    heap.pop_back();
-    return entry;
+    if (float(cost) <= most) queue.push(float(cost), e);
 }
 
 template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
-    while (!heap.empty()) {
-        const std::uint32_t e = edge_of(pop()), c = half[e];
+    while (!queue.empty()) {
+        const std::uint32_t e = queue.pop(), c = half[e];
         if (c == none) continue;
         Placement to = place_edge(c);
-        if (!heap.empty() && entry_of(to.cost, e) > heap.front()) {
+        if (queue.comes_later(float(to.cost), e)) {
             push(e, to.cost);
             continue;
         }
@@ -138,7 +118,7 @@ template <int N> bool Patch<N>::collapse_cheapest(Step& step) {
         bool fits = allowed(c, to.point);
         if (!fits && crossed) {
             fits = evade(c, to);
-            if (fits && !heap.empty() && entry_of(to.cost, e) > heap.front()) {
+            if (fits && queue.comes_later(float(to.cost), e)) {
                 push(e, to.cost);
                 continue;
             }

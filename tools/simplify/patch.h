@@ -13,6 +13,7 @@
 
 #include "tools/mesh/mesh.h"
 #include "tools/simplify/crossing_guard.h"
+#include "tools/simplify/edge_queue.h"
 #include "tools/simplify/quadric.h"
 
 namespace glcast {
@@ -48,6 +49,7 @@ template <int N> class Patch {
     std::uint32_t ghost = none;       ///< the vertex at infinity, the last
     bool keeps_volume = true;         ///< collapses keep the body's volume
     bool memoryless = true;           ///< planes are those of the triangles as they now are
+    bool in_exact_order = true;       ///< or nearly so
 
     /// Once the above are filled: `corners` names three vertices a triangle.
     void connect(std::vector<std::uint32_t> corners);
@@ -67,8 +69,6 @@ template <int N> class Patch {
     const std::uint32_t* triangle(std::uint32_t t) const { return &at[3 * t]; }
 
   private:
-    using Entry = std::uint64_t;
-
     static std::uint32_t next(std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
     static std::uint32_t previous(std::uint32_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
     std::uint32_t after(std::uint32_t c) const { return at[next(c)]; }
@@ -86,7 +86,6 @@ template <int N> class Patch {
     void number_edges();
     Placement place_edge(std::uint32_t c) const;
     void push(std::uint32_t edge, double cost);
-    Entry pop();
     glm::dvec3 keep_volume(std::uint32_t c, const glm::dvec3& point) const;
     bool keeps_manifold(std::uint32_t c);
     bool keeps_shape(std::uint32_t v, std::uint32_t other, const glm::dvec3& to) const;
@@ -115,7 +114,7 @@ template <int N> class Patch {
     /// anew when the edge comes to the top. Nearly all costs only grow as triangles do; one that has fallen
     /// waits a little longer than it should: putting all edges near a collapse in order at once gains 0.3 %
     /// of the error for a third more time.
-    std::vector<Entry> heap;
+    EdgeQueue queue;
     std::vector<char> refused;      ///< by edge: not allowed when its turn came
     std::vector<char> near_refused; ///< by vertex: it may have such an edge
     float most = 0;

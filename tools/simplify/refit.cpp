@@ -125,6 +125,7 @@ struct Place {
     std::uint32_t triangle = 0;
     bool faces = false; ///< the triangle faces as the sample does; otherwise the sample does not pull
     glm::dvec3 weights{1, 0, 0};
+    glm::dvec3 off{0};         ///< from there to the sample
     double squared = infinity; ///< distance
 };
 
@@ -183,8 +184,8 @@ class Fit {
 
   private:
     struct Pull {
+        double weight; ///< of the vertex
         std::uint32_t sample;
-        int corner;
     };
     /// Two triangles, a b c and b a d, that may become a d c and d b c.
     struct Diamond {
@@ -226,14 +227,15 @@ class Fit {
 
     void look_at(const Sample& sample, std::uint32_t triangle, Place& best) const {
         const Faced& t = faced[triangle];
+        if (best.faces && t.is_further(sample.at, best.squared)) return; // most end here
         const bool faces = glm::dot(t.normal, sample.normal) > 0;
         if (best.faces && !faces) return;
         const bool must_be_nearer = best.faces || !faces;
-        if (must_be_nearer && t.is_further(sample.at, best.squared)) return;
+        if (!faces && t.is_further(sample.at, best.squared)) return;
         const TrianglePoint found = nearest_in_triangle(sample.at, t.at.a, t.at.b, t.at.c);
-        const glm::dvec3 off = found.point - sample.at;
+        const glm::dvec3 off = sample.at - found.point;
         const double squared = glm::dot(off, off);
-        if (!must_be_nearer || squared < best.squared) best = {triangle, faces, found.weights, squared};
+        if (!must_be_nearer || squared < best.squared) best = {triangle, faces, found.weights, off, squared};
     }
 
     /// Which samples pull at which vertex, by vertex.
@@ -247,26 +249,23 @@ class Fit {
         std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
         for (std::uint32_t i = 0; i < places.size(); ++i)
             for (int k = 0; places[i].faces && k < 3; ++k)
-                pulls[next[mesh.triangles[places[i].triangle][std::size_t(k)]]++] = {i, k};
+                pulls[next[mesh.triangles[places[i].triangle][std::size_t(k)]]++] = {places[i].weights[k], i};
     }
 
     /// To the least squares of its own samples while its neighbours stand still (Gauss-Seidel).
     void move(std::uint32_t v) {
+        const auto own = std::span(pulls).subspan(first[v], first[v + 1] - first[v]);
         glm::dvec3 sum(0);
         double weight = inertia;
-        for (std::uint32_t p = first[v]; p < first[v + 1]; ++p) {
-            const Place& place = places[pulls[p].sample];
-            const Corners at = corners(mesh, mesh.triangles[place.triangle]);
-            const glm::dvec3 now =
-                place.weights[0] * at.a + place.weights[1] * at.b + place.weights[2] * at.c;
-            const double w = place.weights[pulls[p].corner];
-            sum += w * (samples[pulls[p].sample].at - now);
-            weight += w * w;
+        for (const Pull& pull : own) {
+            sum += pull.weight * places[pull.sample].off;
+            weight += pull.weight * pull.weight;
         }
         glm::dvec3 step = sum / weight;
         for (int attempt = 0; attempt < 3; ++attempt, step *= 0.5)
             if (keeps_shape(v, mesh.positions[v] + step)) {
                 mesh.positions[v] += step;
+                for (const Pull& pull : own) places[pull.sample].off -= pull.weight * step;
                 return;
             }
     }
@@ -373,14 +372,28 @@ class Fit {
         if (std::min(now[0].quality(), now[1].quality()) <
             std::min({min_quality, was[0].quality(), was[1].quality()}))
             return false;
+        const Faced old_ones[2] = {Faced(was[0]), Faced(was[1])},
+                    new_ones[2] = {Faced(now[0]), Faced(now[1])};
         double before = 0, after = 0;
+        for (const std::uint32_t i : laid_left) before += nearest_of(samples[i].at, old_ones[0], old_ones[1]);
+        for (const std::uint32_t i : laid_right)
+            before += nearest_of(samples[i].at, old_ones[1], old_ones[0]);
+        before *= 1 - min_swap_gain;
         for (const auto* laid : {&laid_left, &laid_right})
             for (const std::uint32_t i : *laid) {
                 const glm::dvec3& p = samples[i].at;
-                before += std::min(was[0].squared_distance(p), was[1].squared_distance(p));
-                after += std::min(now[0].squared_distance(p), now[1].squared_distance(p));
+                const bool second = glm::dot(new_ones[0].outwards[1], p - new_ones[0].at.b) > 0;
+                after += nearest_of(p, new_ones[second], new_ones[!second]);
+                if (after >= before) return false;
             }
-        return after < (1 - min_swap_gain) * before;
+        return after < before;
+    }
+
+    /// Squared distance from the nearer one: likely the first.
+    static double nearest_of(const glm::dvec3& point, const Faced& likely, const Faced& other) {
+        const double squared = likely.at.squared_distance(point);
+        return other.is_further(point, squared) ? squared
+                                                : std::min(squared, other.at.squared_distance(point));
     }
 
     Mesh& mesh;

@@ -124,7 +124,7 @@ template <int N> struct TileResult {
 
 template <int N> TileResult<N> collapse_tile(NamedPatch<N>&& made, const RoundOptions& options) {
     TileResult<N> result;
-    made.patch.memoryless = !options.thins;
+    made.patch.memoryless = made.patch.in_exact_order = !options.thins;
     made.patch.queue_edges(options.price);
     std::vector<char> gone(made.names.size(), 0);
     float dearest = 0; // so far: none comes before those that the tile made earlier

@@ -29,7 +29,7 @@ struct RoundOptions {
     std::size_t triangles_per_tile = 0;
     unsigned turn = 0;
     float price = 0; ///< 0: find one
-    /// Planes are added up, and no quadrics are left: of what many triangles still stand for little.
+    /// Where triangles are samples: nearly by cost, planes are added up, and no quadrics are left.
     bool thins = false;
 };
 
