@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -133,6 +134,27 @@ TEST(Transparent, is_cast_by_its_alpha_or_kept_or_skipped) {
     EXPECT_NEAR(width({}), 5, 0.05);
     EXPECT_NEAR(width({{"GLCAST_TRANSPARENT", "keep"}}), 7, 0.05);
     EXPECT_NEAR(width({{"GLCAST_TRANSPARENT", "skip"}}), 3, 0.05);
+}
+
+// All faces that a view shows are seen under the same share of their size, so the marks' share is that on
+// each.
+TEST(Decals, told_apart_by_an_offset_cover_what_they_cover) {
+    const Outcome plain = run_program({SCENES, "decals"}, {}, false);
+    const SceneRun run = cast("decals", {{"GLCAST_FRAME", "3"}, {"GLCAST_FRAME_MATRIX", "eye"}});
+    EXPECT_EQ(run.outcome.out, plain.out);
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    const double share = 32 * std::sin(std::numbers::pi / 32) * 0.25 / 4;
+    for (const ViewImage& image : run.capture->images) {
+        if (image.view.layer != 0) continue;
+        long covered = 0, red = 0;
+        for (std::size_t i = 0; i < image.depth.size(); ++i) {
+            if (!image.covered(i)) continue;
+            ++covered;
+            red += image.colour[i].g < 0.5f;
+            EXPECT_EQ(image.colour[i].r, 1);
+        }
+        EXPECT_NEAR(double(red) / double(covered), share, 0.015);
+    }
 }
 
 TEST(Lines, are_no_solid_unless_asked_for) {

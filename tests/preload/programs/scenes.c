@@ -292,6 +292,42 @@ static void glass(void) {
     draw_box(faint[0], faint[1]);
 }
 
+/* A round mark on each face of a cube, pulled forward by a polygon offset that a display list of the first
+ * frame set. */
+static void decals(void) {
+    const float lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
+    static GLuint offset, marks;
+    clear();
+    camera(1);
+    lit(0);
+    glRotatef(40, 1, 2, 3);
+    glColor3f(1, 1, 1);
+    draw_box(lo, hi);
+    if (!offset) {
+        glNewList(offset = glGenLists(1), GL_COMPILE_AND_EXECUTE);
+        glPolygonOffset(-1, -1);
+        glEndList();
+        glNewList(marks = glGenLists(1), GL_COMPILE);
+        for (int face = 0; face < 6; ++face) {
+            glPushAttrib(GL_ENABLE_BIT);
+            glEnable(GL_POLYGON_OFFSET_FILL);
+            glBegin(GL_TRIANGLE_FAN);
+            for (int i = -1; i <= 64; ++i) {
+                const double a = i * M_PI / 32, r = i < 0 ? 0 : 0.5;
+                double p[3];
+                p[face / 2] = face % 2 ? 1 : -1;
+                p[(face / 2 + 1) % 3] = r * cos(a), p[(face / 2 + 2) % 3] = r * sin(a);
+                glVertex3dv(p);
+            }
+            glEnd();
+            glPopAttrib();
+        }
+        glEndList();
+    }
+    glColor3f(1, 0, 0);
+    glCallList(marks);
+}
+
 static void wires(void) {
     clear();
     camera(1);
@@ -404,6 +440,7 @@ int main(int argc, char** argv) {
         if (IS("after_front")) after_front();
         if (IS("sky") || IS("signals")) sky();
         if (IS("glass")) glass();
+        if (IS("decals")) decals();
         if (IS("wires")) wires();
         if (IS("cloud")) cloud();
         if (IS("refilled")) refilled();
