@@ -161,7 +161,7 @@ double ForcedState::level() const {
 }
 
 void ForcedState::note_faces() {
-    if (pass.learnt) pass.learnt->note(level());
+    if (pass.learnt && shows()) pass.learnt->note(level());
 }
 
 /// A decal that blends, over whatever is below it. Where a stencil test keeps it is not known.

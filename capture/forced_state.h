@@ -69,7 +69,7 @@ class ForcedState {
     void apply();                       ///< all of them
     /// The program clears: what that means where depths are equal.
     void cleared(GLbitfield buffers);
-    /// The program draws faces, or may.
+    /// The program draws faces, or may. Those that nobody sees, as in a pass for depth alone, are no level.
     void note_faces();
 
   private:

@@ -307,6 +307,18 @@ TEST_F(Offset, TheDeepestStays) {
     const Difference same = difference(plain, pushed);
     EXPECT_EQ(same.coverage + same.depth + same.colour, 0);
     EXPECT_EQ(plain.report.draws, pushed.report.draws);
+    const Cast depth_first = cast_of(scene([](const GlTable& gl) {
+                                         gl.ColorMask(0, 0, 0, 0);
+                                         offset(gl, 1, 1);
+                                         body(gl, paint);
+                                         gl.ColorMask(1, 1, 1, 1);
+                                         gl.Disable(GL_POLYGON_OFFSET_FILL);
+                                         gl.DepthFunc(GL_LEQUAL);
+                                         body(gl, base);
+                                     }),
+                                     32);
+    const Difference same_again = difference(plain, depth_first);
+    EXPECT_EQ(same_again.coverage + same_again.depth + same_again.colour, 0);
     const Cast decals = cast_of(scene(cases[0].draw), 32);
     const Difference moved = difference(plain, decals);
     EXPECT_EQ(moved.coverage, 0);
