@@ -38,6 +38,26 @@ std::vector<Triangle> ghost_triangles(const Mesh& mesh, std::vector<std::uint32_
     return ghosts;
 }
 
+/// Triangles with the vertices that theirs became, but for those that have gone.
+std::vector<Triangle> led(const Shape& from, const std::vector<std::uint32_t>& became, std::uint32_t ghost) {
+    constexpr std::size_t per_block = 1 << 16;
+    std::vector<std::vector<Triangle>> blocks((from.triangles.size() + per_block - 1) / per_block);
+    tbb::parallel_for(std::size_t(0), blocks.size(), [&](std::size_t block) {
+        const std::size_t end = std::min((block + 1) * per_block, from.triangles.size());
+        for (std::size_t t = block * per_block; t < end; ++t) {
+            Triangle now = from.triangles[t];
+            for (std::uint32_t& v : now) v = v == from.ghost() ? ghost : became[v];
+            if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) blocks[block].push_back(now);
+        }
+    });
+    std::size_t count = 0;
+    for (const auto& block : blocks) count += block.size();
+    std::vector<Triangle> all;
+    all.reserve(count);
+    for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
+    return all;
+}
+
 } // namespace
 
 UnitCube::UnitCube(const Mesh& mesh) {
@@ -120,9 +140,9 @@ Shape after_steps(const Shape& from, std::span<const Step> steps, std::vector<st
     const std::uint32_t vertices = from.ghost();
     std::vector<std::uint32_t> into(vertices), last(vertices, none); // the last step that moved each vertex
     for (std::uint32_t v = 0; v < vertices; ++v) into[v] = v;
-    for (std::uint32_t k = 0; k < steps.size(); ++k) {
-        into[steps[k].removed] = steps[k].kept;
-        last[steps[k].kept] = k;
+    for (std::uint32_t k = std::uint32_t(steps.size()); k-- > 0;) { // what `kept` became is known then
+        into[steps[k].removed] = into[steps[k].kept];
+        if (last[steps[k].kept] == none) last[steps[k].kept] = k;
     }
     Shape surface;
     const std::size_t left = vertices - steps.size();
@@ -138,16 +158,10 @@ Shape after_steps(const Shape& from, std::span<const Step> steps, std::vector<st
         surface.source.push_back(moved ? steps[last[v]].source : from.source[v]);
         surface.moved.push_back(char(moved || from.moved[v]));
     }
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        while (into[v] != into[into[v]]) into[v] = into[into[v]]; // chains are shortened on the way
-        became[v] = became[into[v]];
-    }
-    surface.triangles.reserve(from.triangles.size() - 2 * steps.size());
-    for (const Triangle& t : from.triangles) {
-        const auto now = [&](std::uint32_t v) { return v == from.ghost() ? surface.ghost() : became[v]; };
-        const Triangle led = {now(t[0]), now(t[1]), now(t[2])};
-        if (led[0] != led[1] && led[1] != led[2] && led[2] != led[0]) surface.triangles.push_back(led);
-    }
+    tbb::parallel_for(std::uint32_t(0), vertices, [&](std::uint32_t v) {
+        if (into[v] != v) became[v] = became[into[v]];
+    });
+    surface.triangles = led(from, became, surface.ghost());
     return surface;
 }
 
