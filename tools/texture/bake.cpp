@@ -153,19 +153,6 @@ class Baker {
 
 Picture blank(int size) { return {size, size, std::vector<std::uint8_t>(std::size_t(size) * size * 3)}; }
 
-void set_coordinates(const Mesh& mesh, const Layout& layout, Texture& texture) {
-    texture.coordinates.resize(mesh.triangles.size());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(mesh.triangles.size()), 4096),
-                      [&](const auto& range) {
-                          for (std::uint32_t t = range.begin(); t < range.end(); ++t) {
-                              const auto corners = in_atlas(mesh, layout.charts, layout.atlas, t);
-                              for (int k = 0; k < 3; ++k)
-                                  texture.coordinates[t][k] =
-                                      glm::vec2(corners[k] / double(layout.atlas.size));
-                          }
-                      });
-}
-
 void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout,
                  const std::vector<std::uint32_t>& owners, Texture& texture, TextureReport& made) {
     const int size = layout.atlas.size;
@@ -215,9 +202,8 @@ Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureO
         mesh, neighbours, choose_views(mesh, neighbours, layout.triangle_normals, crumb * sample * sample),
         sample, origin);
     layout.atlas = pack(layout.charts, options.size, options.gutter, 1 / sample, origin);
-    set_coordinates(mesh, layout, texture);
+    const auto owners = find_owners(mesh, neighbours, layout.charts, layout.atlas, texture.coordinates);
     texture.tangents = make_tangents(mesh, neighbours, layout.charts.of, texture.coordinates);
-    const auto owners = find_owners(mesh, neighbours, layout.charts, layout.atlas);
     bake_texels(mesh, captured, layout, owners, texture, made);
 
     made.charts = layout.charts.charts.size();

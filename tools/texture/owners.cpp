@@ -77,13 +77,15 @@ std::array<glm::dvec2, 3> in_atlas(const Mesh& mesh, const Charts& charts, const
 }
 
 std::vector<std::uint32_t> find_owners(const Mesh& mesh, const Neighbours& neighbours, const Charts& charts,
-                                       const Atlas& atlas) {
+                                       const Atlas& atlas, std::vector<std::array<glm::vec2, 3>>& coordinates) {
+    coordinates.resize(charts.of.size());
     const auto border = border_vertices(mesh, neighbours, charts);
     std::vector<Key> keys(std::size_t(atlas.size) * atlas.size, no_key);
     tbb::parallel_for(
         tbb::blocked_range<std::uint32_t>(0, std::uint32_t(charts.of.size()), 1024), [&](const auto& range) {
             for (std::uint32_t t = range.begin(); t < range.end(); ++t) {
                 auto corners = in_atlas(mesh, charts, atlas, t);
+                for (int k = 0; k < 3; ++k) coordinates[t][k] = glm::vec2(corners[k] / double(atlas.size));
                 const Triangle& v = mesh.triangles[t];
                 if (border[v[0]] || border[v[1]] || border[v[2]]) {
                     offer_around(corners, atlas.places[charts.of[t]], atlas.gutter, t, atlas.size, keys);

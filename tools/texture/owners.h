@@ -9,8 +9,9 @@ std::array<glm::dvec2, 3> in_atlas(const Mesh& mesh, const Charts& charts, const
                                    std::uint32_t triangle);
 
 /// By texel, rows from the top: the triangle that covers its centre or, beside a chart's border, the nearest
-/// one within half the gutter; of several the first. Else no_triangle.
+/// one within half the gutter; of several the first. Else no_triangle. On the way the coordinates of all corners,
+/// 0..1, y down.
 std::vector<std::uint32_t> find_owners(const Mesh& mesh, const Neighbours& neighbours, const Charts& charts,
-                                       const Atlas& atlas);
+                                       const Atlas& atlas, std::vector<std::array<glm::vec2, 3>>& coordinates);
 
 } // namespace glcast

@@ -140,23 +140,22 @@ std::vector<ViewNumber> choose_views(const Mesh& mesh, const Neighbours& neighbo
 
 std::vector<std::uint32_t> connected_parts(const std::vector<ViewNumber>& views, const Neighbours& neighbours,
                                            std::uint32_t& count) {
-    std::vector<std::uint32_t> part(views.size(), no_triangle), stack;
-    count = 0;
-    for (std::uint32_t seed = 0; seed < views.size(); ++seed) {
-        if (part[seed] != no_triangle) continue;
-        part[seed] = count;
-        stack.push_back(seed);
-        while (!stack.empty()) {
-            const std::uint32_t t = stack.back();
-            stack.pop_back();
-            for (std::uint32_t other : neighbours.across[t])
-                if (other != no_triangle && part[other] == no_triangle && views[other] == views[t]) {
-                    part[other] = count;
-                    stack.push_back(other);
-                }
+    // Union and find, where a root is the first triangle of its part: memory is read in order.
+    std::vector<std::uint32_t> part(views.size());
+    const auto root = [&](std::uint32_t t) {
+        while (part[t] != t) t = part[t] = part[part[t]];
+        return t;
+    };
+    for (std::uint32_t t = 0; t < views.size(); ++t) {
+        part[t] = t;
+        for (std::uint32_t other : neighbours.across[t]) {
+            if (other >= t || views[other] != views[t]) continue; // no_triangle is larger than all
+            const std::uint32_t a = root(t), b = root(other);
+            part[std::max(a, b)] = std::min(a, b);
         }
-        ++count;
     }
+    count = 0;
+    for (std::uint32_t t = 0; t < part.size(); ++t) part[t] = part[t] == t ? count++ : part[part[t]]; // it is done
     return part;
 }
 
