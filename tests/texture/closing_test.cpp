@@ -126,7 +126,8 @@ TEST(Closing, IsSeenInTheVertices) {
 TEST(Closing, IsSeenInTheTextureOfALevel) {
     const Source source = painted(slit_block(), true, inward);
     Mesh mesh = coarse(source.full, 60);
-    const Texture texture = bake_texture(mesh, source.captured, {.size = 512});
+    TextureReport report;
+    const Texture texture = bake_texture(mesh, source.captured, {.size = 512}, &report);
     double green = 0, red = 0, down = 0, up_beside = 0, along = 0, beside = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int i = 1; i < 200; ++i)
@@ -140,6 +141,8 @@ TEST(Closing, IsSeenInTheTextureOfALevel) {
                 if (off < 0.3) green += shown.colour.g, down -= shown.normal.z, ++along;
                 if (off > 2.5) red += shown.colour.r, up_beside += shown.normal.z, ++beside;
             }
+    // About two samples wide, a block long, and no ray saw it.
+    EXPECT_GT(double(report.texels_unseen), half / sample * report.texels_per_sample);
     ASSERT_GT(along, 10);
     ASSERT_GT(beside, 1000);
     EXPECT_GT(green / along, 0.95);

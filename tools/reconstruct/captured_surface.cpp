@@ -189,7 +189,7 @@ CapturedPoint CapturedSurface::behind(const glm::dvec3& start, const glm::vec3& 
     if (!there) return {};
     const AxisHits& hits = rays->axis[there.axis];
     CapturedPoint out;
-    out.found = true;
+    out.found = out.behind = true;
     glm::dvec3 at = start;
     at[there.axis] = hits.depth[there.hit];
     out.position = box.lo + (at + 0.5) * sample();

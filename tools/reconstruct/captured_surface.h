@@ -16,6 +16,7 @@ struct CapturedPoint {
     glm::vec3 colour{0};    ///< as drawn, 0..1
     glm::vec3 normal{0};    ///< unit, as drawn; where none was drawn, that of the surface
     bool found = false;
+    bool behind = false; ///< no ray saw the surface: what lies behind its closing of an opening
 };
 
 /// Holds every hit of the capture: sixteen bytes a hit, and four a pixel of three images. Cheap to copy.

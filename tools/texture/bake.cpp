@@ -102,7 +102,8 @@ class Baker {
         put(texture.colour, texel, colour);
         put(texture.normal, texel,
             0.5f + 0.5f * (seen.found ? encoded(mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
-        return {std::abs(nearest.point.x - x - 0.5) + std::abs(nearest.point.y - y - 0.5) < 1e-6, seen.found};
+        return {std::abs(nearest.point.x - x - 0.5) + std::abs(nearest.point.y - y - 0.5) < 1e-6,
+                seen.found && !seen.behind};
     }
 
   private:

@@ -19,10 +19,11 @@ struct TextureOptions {
 
 struct TextureReport {
     std::size_t charts = 0;
-    int gutter = 0;                ///< texels between charts
-    double texels_per_sample = 0;  ///< along an axis; 1 at most: a texel a pixel of the capture
-    std::size_t texels = 0;        ///< that show the surface; the gutters are not counted
-    std::size_t texels_unseen = 0; ///< of these, where no ray saw the surface: colours of the vertices
+    int gutter = 0;               ///< texels between charts
+    double texels_per_sample = 0; ///< along an axis; 1 at most: a texel a pixel of the capture
+    std::size_t texels = 0;       ///< that show the surface; the gutters are not counted
+    std::size_t texels_unseen =
+        0; ///< of these, where no ray saw the surface: what lies behind a closing, or the vertices' colours
 };
 
 /// The texture of a closed level, and the vertex normals that belong to it, which replace mesh.normals
