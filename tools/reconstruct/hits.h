@@ -55,7 +55,8 @@ inline constexpr auto unpacked_channel = [] {
     return values;
 }();
 inline glm::vec3 unpack_colour(std::uint32_t packed) {
-    return {unpacked_channel[packed >> 20 & 1023], unpacked_channel[packed >> 10 & 1023], unpacked_channel[packed & 1023]};
+    return {unpacked_channel[packed >> 20 & 1023], unpacked_channel[packed >> 10 & 1023],
+            unpacked_channel[packed & 1023]};
 }
 
 /// Takes the images of a capture one at a time, in any order, so that they need not be in memory together.

@@ -20,7 +20,8 @@ class Part {
     Part(const Mesh& mesh, const Neighbours& neighbours, ViewNumber view, double cell,
          const glm::dvec3& origin, std::span<const std::uint32_t> triangles,
          const std::vector<std::uint32_t>& part_of)
-        : mesh(mesh), neighbours(neighbours), triangles(triangles), part_of(part_of), number(part_of[triangles[0]]), view(view), cells(1 / cell), shift(in_picture(origin, view)) {
+        : mesh(mesh), neighbours(neighbours), triangles(triangles), part_of(part_of),
+          number(part_of[triangles[0]]), view(view), cells(1 / cell), shift(in_picture(origin, view)) {
         glm::dvec3 first(std::numeric_limits<double>::infinity()), last(-first);
         for (std::uint32_t t : triangles)
             for (std::uint32_t v : mesh.triangles[t]) {
