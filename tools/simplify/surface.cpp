@@ -121,19 +121,24 @@ void TriangleQuadrics<N>::add_attributes(Quadric<N>& q, const Triangle& t,
     const glm::dvec3 by_b = cross(c - a, doubled_area) / squares, by_c = cross(doubled_area, b - a) / squares;
     const glm::dvec3 middle = (a + b + c) / 3.0;
     const std::vector<std::uint32_t>& source = surface.source;
-    const auto add = [&](int first, const std::vector<glm::vec3>& values, double weight) {
+    const auto add = [&](int first, const glm::dvec3& of_a, const glm::dvec3& of_b, const glm::dvec3& of_c) {
         for (int k = 0; k < 3; ++k) {
-            const double at_a = weight * double(values[source[t[0]]][k]),
-                         at_b = weight * double(values[source[t[1]]][k]),
-                         at_c = weight * double(values[source[t[2]]][k]);
+            const double at_a = of_a[k], at_b = of_b[k], at_c = of_c[k];
             glm::dvec3 g = by_b * (at_b - at_a) + by_c * (at_c - at_a);
             if (const double slope = glm::length(g); slope > steepest) g *= steepest / slope;
             q.add_attribute(first + k, g, (at_a + at_b + at_c) / 3 - dot(g, middle), q.weight);
         }
     };
+    const auto colour = [&](int corner) {
+        return weights.colour * glm::dvec3(mesh.colours[source[t[corner]]]);
+    };
+    const auto outward = [&](int corner) { // where a closing shows a wall that faces inward, its shape counts
+        const glm::dvec3 normal = weights.normal * glm::dvec3(mesh.normals[source[t[corner]]]);
+        return dot(normal, doubled_area) < 0 ? -normal : normal;
+    };
     int first = 0;
-    if (weights.colour > 0) add(first, mesh.colours, weights.colour), first += 3;
-    if (weights.normal > 0) add(first, mesh.normals, weights.normal);
+    if (weights.colour > 0) add(first, colour(0), colour(1), colour(2)), first += 3;
+    if (weights.normal > 0) add(first, outward(0), outward(1), outward(2));
 }
 
 Shape after_steps(const Shape& from, std::span<const Step> steps, std::vector<std::uint32_t>& became) {
