@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/reconstruct/hiding.h"
 #include "tools/reconstruct/sheets.h"
-#include "tools/reconstruct/sight.h"
 #include "tools/reconstruct/space.h"
 #include "tools/reconstruct/step.h"
 
@@ -16,68 +16,6 @@ namespace {
 constexpr int shallow = 3; // samples: a groove no deeper than this stays open, however narrow
 
 int step_of(int radius) { return 3 * radius + shallow; }
-
-/// The hidden coarse cell's samples and, of those beside walls, which no coarse cell holds whole, the ones
-/// that are nearer to hidden samples than to open ones.
-class Hiding {
-  public:
-    Hiding(const Rays& rays, const SliceHits& along_z, const Volume& space, const Sight& sight)
-        : rays(rays), space(space), sight(sight), n(rays.n) {
-        if (sight.scale > 1) find_undecided(along_z);
-    }
-    Volume open_space() const {
-        return make_volume(n, [&](int y, int z, Word* bits) {
-            space.set_bits(y, z, bits);
-            for_hidden(y, z, [&](int x) { bits[x >> 6] &= ~(Word(1) << (x & 63)); });
-            const SampleId row = id_of({0, y, z}, n);
-            for (auto at = std::lower_bound(besides.begin(), besides.end(), row);
-                 at != besides.end() && *at < row + n; ++at)
-                bits[(*at - row) >> 6] &= ~(Word(1) << ((*at - row) & 63));
-        });
-    }
-
-  private:
-    bool hidden_cell(const std::array<int, 3>& s) const { return sight.at(s) == Sight::hidden; }
-    /// The row's samples of the space in hidden cells.
-    template <class Visit> void for_hidden(int y, int z, Visit visit) const {
-        for (const Run* run = space.begin(y, z); run != space.end(y, z); ++run)
-            for (int x = run->first; x <= run->last; ++x)
-                if (hidden_cell({x, y, z})) visit(x);
-    }
-    Volume in_hidden_cells() const {
-        return make_volume(
-            n, [&](int y, int z, Word* bits) { for_hidden(y, z, [&](int x) { set_bit(bits, x); }); });
-    }
-    void find_undecided(const SliceHits& along_z) {
-        const auto undecided = [&](const std::array<int, 3>& s) {
-            return space.has(s) && sight.at(s) == Sight::not_free;
-        };
-        std::vector<SampleId> first = beside(rays, along_z, in_hidden_cells());
-        std::erase_if(first, [&](SampleId id) { return !undecided(sample_of(id, n)); });
-        const int most = 4 * sight.scale;
-        const auto from_hidden = flood(rays, first, 1, most, [&](auto& s, SampleId) { return undecided(s); });
-        std::vector<SampleId> rim;
-        from_hidden.for_each([&](SampleId id, int) {
-            for_steps(rays, sample_of(id, n), [&](const std::array<int, 3>& s) {
-                if (space.has(s) && !hidden_cell(s) && !from_hidden.contains(id_of(s, n))) rim.push_back(id);
-            });
-        });
-        std::sort(rim.begin(), rim.end());
-        rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
-        const auto from_open =
-            flood(rays, rim, 1, most, [&](auto&, SampleId id) { return from_hidden.contains(id); });
-        from_hidden.for_each([&](SampleId id, int level) {
-            const int open = from_open.at(id);
-            if (open == SampleLevels::none || level <= open) besides.push_back(id);
-        });
-        std::sort(besides.begin(), besides.end());
-    }
-    const Rays& rays;
-    const Volume& space;
-    const Sight& sight;
-    const int n;
-    std::vector<SampleId> besides;
-};
 
 /// Samples in narrow places that belong to the outside: those few steps from it, unless the place goes on
 /// deeper than that: then it is a slit, and closed flush.
@@ -116,7 +54,7 @@ Exterior find_exterior(const Rays& rays, double close_gaps) {
     Exterior out;
     if (const auto sight = find_sight(open)) {
         const std::size_t before = open.samples();
-        open = Hiding(rays, along_z, open, *sight).open_space();
+        open = without_hidden(rays, along_z, open, *sight);
         out.hidden_samples = before - open.samples();
     }
     Volume outside = open;
