@@ -1,5 +1,6 @@
 // A tree of boxes over the triangles in the order of their centres along a Morton curve (Lauterbach et al.
-// 2009), and the exact test of every pair whose boxes overlap.
+// 2009), and the exact test of every pair whose boxes overlap. Neighbours on the curve look through the tree
+// together.
 #include "tools/mesh/intersections.h"
 
 #include <algorithm>
@@ -19,20 +20,20 @@
 namespace glcast {
 namespace {
 
-constexpr std::size_t leaf_size = 4; // triangles
+constexpr std::size_t leaf_size = 4;     // triangles
+constexpr std::size_t most_grouped = 16; // triangles
+constexpr int group_shift = 6;           // bits of the key: a group stays in 4 x 4 x 4 cells of the curve
 constexpr float far_away = std::numeric_limits<float>::infinity();
 
 /// Holds what was added to it; floats, rounded outwards.
 struct Bounds {
     glm::vec3 lo{far_away}, hi{-far_away};
 
-    void add(const glm::dvec3& p) {
+    Bounds() = default;
+    Bounds(const glm::dvec3& low, const glm::dvec3& high) : lo(low), hi(high) {
         for (int k = 0; k < 3; ++k) {
-            float down = float(p[k]), up = down;
-            if (double(down) > p[k]) down = std::nextafter(down, -far_away);
-            if (double(up) < p[k]) up = std::nextafter(up, far_away);
-            lo[k] = std::min(lo[k], down);
-            hi[k] = std::max(hi[k], up);
+            if (double(lo[k]) > low[k]) lo[k] = std::nextafter(lo[k], -far_away);
+            if (double(hi[k]) < high[k]) hi[k] = std::nextafter(hi[k], far_away);
         }
     }
     void add(const Bounds& other) {
@@ -53,30 +54,44 @@ std::uint32_t spread(std::uint32_t x) {
     return (x | x << 2) & 0x09249249;
 }
 
+struct Boxed {
+    std::uint32_t triangle;
+    Bounds bounds;
+};
+
 class Tree {
   public:
     Tree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
          std::span<const std::uint32_t> which);
-    /// Calls visit(t) for each triangle whose box overlaps that of triangle `of`, itself included.
-    template <class Visit> void overlapping(std::uint32_t of, Visit visit) const;
+    std::size_t groups() const { return group.empty() ? 0 : group.size() - 1; }
+    /// Calls visit(t) for the triangles of a group: they are near to one another.
+    template <class Visit> void for_group(std::size_t g, Visit visit) const {
+        for (std::uint32_t k = group[g]; k < group[g + 1]; ++k) visit(order[k]);
+    }
+    /// Adds the triangles whose boxes overlap `wanted`.
+    void overlapping(const Bounds& wanted, std::vector<Boxed>& out) const;
+    Bounds bounds_of(std::uint32_t t) const {
+        const glm::dvec3 &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
+                         &c = positions[triangles[t][2]];
+        return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+    }
 
   private:
-    Bounds bounds_of(std::uint32_t t) const {
-        Bounds bounds;
-        for (std::uint32_t v : triangles[t]) bounds.add(positions[v]);
-        return bounds;
-    }
     void sort(std::span<const std::uint32_t> which);
     std::span<const glm::dvec3> positions;
     std::span<const Triangle> triangles;
     std::vector<std::uint32_t> order;
+    std::vector<std::uint32_t> group;       ///< where each starts in `order`; one more at the end
     std::vector<std::vector<Bounds>> level; ///< [0]: of leaf_size triangles each; then of two below each
 };
 
 void Tree::sort(std::span<const std::uint32_t> which) {
-    Bounds all;
-    for (std::uint32_t t : which) all.add(positions[triangles[t][0]]);
-    const glm::dvec3 lo(all.lo), size = glm::max(glm::dvec3(all.hi) - lo, glm::dvec3(1e-300));
+    glm::dvec3 lo = positions[triangles[which[0]][0]], hi = lo;
+    for (std::uint32_t t : which) {
+        lo = glm::min(lo, positions[triangles[t][0]]);
+        hi = glm::max(hi, positions[triangles[t][0]]);
+    }
+    const glm::dvec3 size = glm::max(hi - lo, glm::dvec3(1e-300));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> keys(which.size());
     tbb::parallel_for(std::size_t(0), which.size(), [&](std::size_t i) {
         const Triangle& t = triangles[which[i]];
@@ -88,7 +103,13 @@ void Tree::sort(std::span<const std::uint32_t> which) {
     });
     tbb::parallel_sort(keys.begin(), keys.end());
     order.resize(keys.size());
-    std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        order[i] = keys[i].second;
+        if (i == 0 || i - group.back() == most_grouped ||
+            keys[i].first >> group_shift != keys[i - 1].first >> group_shift)
+            group.push_back(std::uint32_t(i));
+    }
+    group.push_back(std::uint32_t(keys.size()));
 }
 
 Tree::Tree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
@@ -109,9 +130,7 @@ Tree::Tree(std::span<const glm::dvec3> positions, std::span<const Triangle> tria
     }
 }
 
-template <class Visit> void Tree::overlapping(std::uint32_t of, Visit visit) const {
-    if (level.empty()) return;
-    const Bounds wanted = bounds_of(of);
+void Tree::overlapping(const Bounds& wanted, std::vector<Boxed>& out) const {
     std::pair<std::uint32_t, std::uint32_t> stack[64]; // level and number
     int depth = 0;
     stack[depth++] = {std::uint32_t(level.size() - 1), 0};
@@ -120,8 +139,10 @@ template <class Visit> void Tree::overlapping(std::uint32_t of, Visit visit) con
         if (!level[height][i].overlaps(wanted)) continue;
         if (height == 0) {
             const std::size_t end = std::min(order.size(), (std::size_t(i) + 1) * leaf_size);
-            for (std::size_t k = std::size_t(i) * leaf_size; k < end; ++k)
-                if (bounds_of(order[k]).overlaps(wanted)) visit(order[k]);
+            for (std::size_t k = std::size_t(i) * leaf_size; k < end; ++k) {
+                const Bounds bounds = bounds_of(order[k]);
+                if (bounds.overlaps(wanted)) out.push_back({order[k], bounds});
+            }
             continue;
         }
         if (2 * i + 1 < level[height - 1].size()) stack[depth++] = {height - 1, 2 * i + 1};
@@ -129,20 +150,33 @@ template <class Visit> void Tree::overlapping(std::uint32_t of, Visit visit) con
     }
 }
 
-/// found(probe, other) for each pair that meets; a pair of two probes comes once. `is_probe`: by triangle.
+/// found(probe, other) for each pair that meets; a pair of two probes comes once.
 template <class Found>
 void for_pairs(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
                std::span<const std::uint32_t> probes, std::span<const std::uint32_t> others, Found found) {
     const Tree tree(positions, triangles, others);
-    const bool all = probes.size() == others.size();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, probes.size(), 256), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            tree.overlapping(probes[i], [&](std::uint32_t other) {
-                const std::uint32_t probe = probes[i];
-                if (other == probe) return;
-                if (other < probe && (all || std::binary_search(probes.begin(), probes.end(), other))) return;
-                if (triangles_meet(positions, triangles[probe], triangles[other])) found(probe, other);
+    std::vector<bool> is_probe(triangles.size());
+    for (std::uint32_t t : probes) is_probe[t] = true;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.groups(), 64), [&](const auto& range) {
+        std::vector<Boxed> mine, near;
+        for (std::size_t g = range.begin(); g < range.end(); ++g) {
+            Bounds all;
+            mine.clear();
+            near.clear();
+            tree.for_group(g, [&](std::uint32_t t) {
+                if (!is_probe[t]) return;
+                mine.push_back({t, tree.bounds_of(t)});
+                all.add(mine.back().bounds);
             });
+            if (mine.empty()) continue;
+            tree.overlapping(all, near);
+            for (const auto& [probe, bounds] : mine)
+                for (const auto& [other, other_bounds] : near) {
+                    if (!bounds.overlaps(other_bounds) || other == probe) continue;
+                    if (other < probe && is_probe[other]) continue;
+                    if (triangles_meet(positions, triangles[probe], triangles[other])) found(probe, other);
+                }
+        }
     });
 }
 
