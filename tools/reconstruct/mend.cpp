@@ -163,19 +163,21 @@ std::vector<TrianglePair> Mender::pairs_of(const Numbers& probes) const {
         return blocks.any(lo, hi);
     });
     // Only what is near, with numbers of its own and as it will be written.
-    Numbers vertices, own_probes, own_all(near.size());
-    vertices.reserve(near.size() * 3);
-    for (std::uint32_t t : near) vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
-    sort_once(vertices);
+    Numbers number(positions.size(), 0), vertices, own_probes, own_all(near.size());
+    for (std::uint32_t t : near)
+        for (std::uint32_t v : triangles[t]) number[v] = 1;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+        if (!number[v]) continue;
+        number[v] = std::uint32_t(vertices.size());
+        vertices.push_back(v);
+    }
     std::vector<glm::dvec3> points(vertices.size());
     tbb::parallel_for(std::size_t(0), points.size(),
                       [&](std::size_t i) { points[i] = frame(positions[vertices[i]]); });
     std::vector<Triangle> faces(near.size());
     tbb::parallel_for(std::size_t(0), near.size(), [&](std::size_t i) {
         own_all[i] = std::uint32_t(i);
-        for (int k = 0; k < 3; ++k)
-            faces[i][k] = std::uint32_t(
-                std::lower_bound(vertices.begin(), vertices.end(), triangles[near[i]][k]) - vertices.begin());
+        for (int k = 0; k < 3; ++k) faces[i][k] = number[triangles[near[i]][k]];
     });
     for (std::uint32_t t : probes)
         own_probes.push_back(std::uint32_t(std::lower_bound(near.begin(), near.end(), t) - near.begin()));
