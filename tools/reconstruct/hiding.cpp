@@ -36,27 +36,26 @@ class CellRows {
     std::vector<Word> bits;
 };
 
-/// Two floods that start at once, from hidden and from open samples: who comes first has a sample. What
-/// hidden ones alone come to is hidden too.
+/// Two floods that start at once, from hidden and from open samples: a sample is open when the open ones come
+/// to it first.
 Region::Set nearer_to_hidden(const Region& region, const Region::Set& hidden, const Region::Set& open,
                              int most) {
     using Set = Region::Set;
     Set reach = hidden;
     for (int level = 1; level < most; ++level) {
-        Set next = region.grown(reach);
+        Set next = region.grown(reach, region.all());
         if (next == reach) break;
         reach = std::move(next);
     }
     Set others = region.all();
     for (std::size_t i = 0; i < others.size(); ++i) others[i] &= ~reach[i];
-    Set from_open = region.grown(others), from_hidden = hidden, out = reach;
+    Set from_open = region.grown(others, reach), from_hidden = hidden, out = reach;
     for (std::size_t i = 0; i < reach.size(); ++i) from_open[i] = (from_open[i] | open[i]) & reach[i];
     for (int level = 1;; ++level) {
         for (std::size_t i = 0; i < out.size(); ++i) out[i] &= ~(from_open[i] & ~from_hidden[i]);
         if (level == most || from_hidden == reach) return out;
-        from_hidden = region.grown(from_hidden);
-        from_open = region.grown(from_open);
-        for (std::size_t i = 0; i < reach.size(); ++i) from_open[i] &= reach[i];
+        from_hidden = region.grown(from_hidden, reach);
+        from_open = region.grown(from_open, reach);
     }
 }
 

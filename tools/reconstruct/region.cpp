@@ -100,11 +100,11 @@ Word Region::reached(const Set& set, std::size_t i) const {
     return out;
 }
 
-Region::Set Region::grown(const Set& set) const {
+Region::Set Region::grown(const Set& set, const Set& within) const {
     Set out(set.size(), 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, number.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
-            out[i] = set[i] == samples[i] ? set[i] : set[i] | (reached(set, i) & samples[i]);
+            out[i] = within[i] & ~set[i] ? set[i] | (reached(set, i) & within[i]) : set[i];
     });
     return out;
 }

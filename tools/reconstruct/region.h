@@ -15,8 +15,8 @@ class Region {
     const Set& all() const { return samples; }
     /// Those of the volume.
     Set common(const Volume& volume) const;
-    /// `set` and the samples of the region one step from it across an edge without a wall.
-    Set grown(const Set& set) const;
+    /// `set` and the samples of `within` one step from it across an edge without a wall.
+    Set grown(const Set& set, const Set& within) const;
     /// Takes the set's samples out of a row of the volume.
     void clear(const Set& set, int y, int z, Word* row) const;
 
