@@ -16,6 +16,7 @@
 #include "tools/deviation/area_samples.h"
 #include "tools/deviation/shown.h"
 #include "tools/deviation/surface_index.h"
+#include "tools/mesh/morton.h"
 #include "tools/mesh/point_triangle.h"
 
 namespace glcast {
@@ -28,14 +29,6 @@ struct Probe {
     AreaSample at;
     Shown shown;
 };
-
-/// The low ten bits, two zeros behind each.
-std::uint32_t spread_bits(std::uint32_t x) {
-    x = (x | x << 16) & 0x30000ff;
-    x = (x | x << 8) & 0x300f00f;
-    x = (x | x << 4) & 0x30c30c3;
-    return (x | x << 2) & 0x9249249;
-}
 
 /// In Morton's order: what one search has read of a large tree, the next finds in the caches.
 std::vector<AreaSample> neighbours_together(const std::vector<AreaSample>& samples) {

@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include "tools/mesh/morton.h"
 #include "tools/mesh/triangle_contact.h"
 
 namespace glcast {
@@ -45,14 +46,6 @@ struct Bounds {
                o.lo.z <= hi.z;
     }
 };
-
-/// The low 10 bits of x, three apart.
-std::uint32_t spread(std::uint32_t x) {
-    x = (x | x << 16) & 0x030000ff;
-    x = (x | x << 8) & 0x0300f00f;
-    x = (x | x << 4) & 0x030c30c3;
-    return (x | x << 2) & 0x09249249;
-}
 
 struct Boxed {
     std::uint32_t triangle;
@@ -98,7 +91,7 @@ void Tree::sort(std::span<const std::uint32_t> which) {
         const glm::dvec3 centre = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
         std::uint32_t key = 0;
         for (int k = 0; k < 3; ++k)
-            key |= spread(std::uint32_t(std::clamp((centre[k] - lo[k]) / size[k], 0.0, 1.0) * 1023)) << k;
+            key |= spread_bits(std::uint32_t(std::clamp((centre[k] - lo[k]) / size[k], 0.0, 1.0) * 1023)) << k;
         keys[i] = {key, which[i]};
     });
     tbb::parallel_sort(keys.begin(), keys.end());

@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "tools/mesh/whole.h"
 #include "tools/reconstruct/behind.h"
 
 namespace glcast {
@@ -23,12 +24,6 @@ struct Pixel {
     std::uint32_t hit;
     glm::vec3 plane, normal;
 };
-
-/// std::floor is a call where the processor need not have SSE 4.1.
-int whole_below(double x) {
-    const int cut = int(x);
-    return cut - (x < cut);
-}
 
 glm::vec3 unit_or_zero(const glm::vec3& v) {
     const float length = glm::length(v);

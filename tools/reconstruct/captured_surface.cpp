@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "tools/mesh/whole.h"
 #include "tools/reconstruct/attributes.h"
 #include "tools/reconstruct/behind.h"
 #include "tools/reconstruct/sides.h"
@@ -19,12 +20,6 @@ constexpr float steepest = 0.25f;   // cosine: views that see a surface flatter 
 constexpr float same_way = 0.2f;    // cosine between the asked and the found facing
 constexpr float across_line = 0.3f; // cosine: a line nearer to a plane's own directions is not followed
 constexpr float same_place = 1e-3f; // samples: the two sides of a sheet
-
-/// As lround, which is a call; halves below zero go up.
-int nearest_whole(double x) {
-    const int cut = int(x + 0.5);
-    return cut - (x + 0.5 < cut);
-}
 
 /// A hit and the plane through it, outward.
 struct Plane {

@@ -3,16 +3,10 @@
 #include <bit>
 #include <utility>
 
+#include "tools/mesh/morton.h"
+
 namespace glcast {
 namespace {
-
-/// The low 10 bits of x, three apart.
-std::uint32_t spread(std::uint32_t x) {
-    x = (x | x << 16) & 0x030000ff;
-    x = (x | x << 8) & 0x0300f00f;
-    x = (x | x << 4) & 0x030c30c3;
-    return (x | x << 2) & 0x09249249;
-}
 
 std::vector<BoxTree::Item> along_curve(const std::vector<BoxTree::Item>& items) {
     FloatBox all;
@@ -23,7 +17,7 @@ std::vector<BoxTree::Item> along_curve(const std::vector<BoxTree::Item>& items) 
         for (int k = 0; k < 3; ++k) {
             const float size = all.high[k] - all.low[k],
                         at = (items[i].box.low[k] + items[i].box.high[k]) / 2 - all.low[k];
-            key |= spread(size > 0 ? std::uint32_t(std::clamp(at / size, 0.0f, 1.0f) * 1023) : 0) << k;
+            key |= spread_bits(size > 0 ? std::uint32_t(std::clamp(at / size, 0.0f, 1.0f) * 1023) : 0) << k;
         }
         keys[i] = std::uint64_t(key) << 32 | i;
     }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/mesh/morton.h"
+
 namespace glcast {
 namespace {
 
@@ -15,17 +17,11 @@ constexpr std::uint32_t cells = 1U << (3 * bits);
 // Of the triangles, that are sorted at the same time.
 constexpr std::size_t triangles_a_part = 500'000, most_parts = 8;
 
-std::uint32_t spread(std::uint32_t x) {
-    std::uint32_t spread = 0;
-    for (unsigned bit = 0; bit < bits; ++bit) spread |= (x >> bit & 1) << (3 * bit);
-    return spread;
-}
-
 /// The cube takes up half the curve's, at another place every turn.
 std::uint32_t cell_of(const glm::dvec3& p, const glm::dvec3& shift) {
     static const auto table = [] {
         std::array<std::uint32_t, 1U << bits> all{};
-        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = spread(i);
+        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = spread_bits(i);
         return all;
     }();
     const auto at = [](double x) { return std::size_t(std::clamp(x, 0.0, 0.999999) * (1U << bits)); };

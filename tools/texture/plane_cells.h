@@ -5,14 +5,9 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 
-namespace glcast {
+#include "tools/mesh/whole.h"
 
-/// std::floor and std::ceil are calls where the processor need not have SSE 4.1.
-inline int whole_below(double x) {
-    const int cut = int(x);
-    return cut - (x < cut);
-}
-inline int whole_above(double x) { return -whole_below(-x); }
+namespace glcast {
 
 /// Calls visit(x, y) for the whole-numbered points inside the triangle, whichever way it turns: strictly
 /// inside, farther from its sides than `inset` (negative: outside too); while it returns true.

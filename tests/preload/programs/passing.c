@@ -12,15 +12,7 @@ static volatile int drawing = 1;
 
 static void draw(Window window, GLXContext context) {
     glXMakeCurrent(display, window, context);
-    glViewport(0, 0, 100, 100);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-1, 1, -1, 1, 2, 40);
-    glMatrixMode(GL_MODELVIEW);
-    glLoadIdentity();
-    glTranslatef(-1, -1, -9);
-    glEnable(GL_DEPTH_TEST);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    look_at_chiral(100);
     draw_chiral();
 }
 

@@ -31,20 +31,8 @@ static void fill(GLenum target, GLuint name, unsigned char shade) {
     glTexImage2D(target, 0, GL_RGBA, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
-static void camera(void) {
-    glViewport(0, 0, size, size);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-1, 1, -1, 1, 2, 40);
-    glMatrixMode(GL_MODELVIEW);
-    glLoadIdentity();
-    glTranslatef(-1, -1, -9);
-    glEnable(GL_DEPTH_TEST);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
 static void draw_solid(void) {
-    camera();
+    look_at_chiral(size);
     glEnable(GL_TEXTURE_2D);
     glTexGeni(GL_S, GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);
     glTexGeni(GL_T, GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);

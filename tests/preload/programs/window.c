@@ -46,3 +46,15 @@ const float chiral_boxes[3][2][3] = {
 void draw_chiral(void) {
     for (int i = 0; i < 3; ++i) draw_box(chiral_boxes[i][0], chiral_boxes[i][1]);
 }
+
+void look_at_chiral(int size) {
+    glViewport(0, 0, size, size);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-1, 1, -1, 1, 2, 40);
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    glTranslatef(-1, -1, -9);
+    glEnable(GL_DEPTH_TEST);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
