@@ -11,7 +11,6 @@ namespace {
 
 /// Depth ranges that differ by more part a scene into a sky, a world and a weapon, and are no offsets.
 constexpr double most_trimmed = 0.05;
-constexpr double units_of_depth = 1 << 24;
 
 } // namespace
 

@@ -19,6 +19,8 @@
 
 namespace glcast {
 
+inline constexpr float units_of_depth = 1 << 24; ///< of glPolygonOffset, in depth 0..1 of 24 bits
+
 /// The state of a program on which a level depends. GL's defaults.
 struct OffsetState {
     bool enabled = false; ///< GL_POLYGON_OFFSET_FILL
