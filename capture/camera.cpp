@@ -233,11 +233,12 @@ std::optional<glm::dmat4> to_space_of(const Camera& reference, const Camera& cam
 }
 
 double depth_nudge(const DepthLine& reference, const DepthLine& nudged, bool perspective) {
-    constexpr double most = 2e-3;
+    constexpr double least = 2e-6, most = 2e-3; // less is rounding
+    const auto is_nudge = [](double moved) { return std::abs(moved) >= least && std::abs(moved) <= most; };
     if (!perspective) {
         const double moved = nudged.shift - reference.shift;
         const bool same_slope = std::abs(nudged.slope - reference.slope) <= rounding * std::abs(reference.slope);
-        return same_slope && std::abs(moved) <= most ? moved / 2 : 0;
+        return same_slope && is_nudge(moved) ? moved / 2 : 0;
     }
     // Where the near plane is, so that a far plane moved by much is no nudge.
     const double near = -reference.shift / (reference.slope + 1);
@@ -245,8 +246,7 @@ double depth_nudge(const DepthLine& reference, const DepthLine& nudged, bool per
         return nudged.slope - reference.slope + (nudged.shift - reference.shift) / w;
     };
     const double moved = moved_at(10 * near);
-    if (!(std::abs(moved_at(2 * near)) <= most && std::abs(moved) <= most)) return 0;
-    return moved / 2;
+    return is_nudge(moved_at(2 * near)) && is_nudge(moved) ? moved / 2 : 0;
 }
 
 bool is_square(const Lens& lens, int width, int height) {
