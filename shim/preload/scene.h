@@ -32,6 +32,8 @@ struct Group {
     ProjectionKind kind = ProjectionKind::flat;
     std::optional<Camera> camera;  ///< in the first draw's matrices
     std::optional<DepthLine> depth; ///< likewise
+    /// Its eye space is the screen's, for that of the first draw is scaled unevenly, or the modelview holds the projection.
+    bool in_screen_space = false;
     /// S^-1 where the program's modelview begins with a scale S that belongs to the projection, as glOrtho in it is.
     glm::dmat4 unscale{1.0};
     /// Those that its draws are seen by, each once, a few at most; from the group's eye space.

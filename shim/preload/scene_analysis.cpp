@@ -7,6 +7,7 @@
 #include "shim/preload/feedback_probe.h"
 #include "shim/preload/scene.h"
 #include "shim/preload/scene_table.h"
+#include "shim/preload/similarity.h"
 #include "shim/preload/way_to_window.h"
 
 namespace glcast::preload {
@@ -51,6 +52,13 @@ std::optional<glm::dmat4> scale_before_view(const glm::dmat4& projection, const 
     glm::dmat4 matrix(1.0);
     for (int i = 0; i < 3; ++i) matrix[i][i] = (*scale)[i];
     return matrix;
+}
+
+/// A similarity, be it one that mirrors.
+bool keeps_shapes(const glm::dmat4& to_eye) {
+    glm::dmat4 other = to_eye;
+    if (mirrors(to_eye)) other[2] = -other[2];
+    return is_similarity(other);
 }
 
 /// What a further look at the frame is to find out, found to be wanting by the first.
@@ -163,15 +171,14 @@ class Analysis final : public DrawGate {
         if (!probe.is_open()) return;
         const auto polygons = probe.end();
         if (shown_texture) return way.show_texture(*shown_texture, framebuffer, shows_mirrored(polygons));
-        ClipDraws& clip = clip_draws[scene.draws.back().group];
-        ++clip.draws;
+        DepthLineFit& fit = clip_draws[scene.draws.back().group][scene.draws.size() - 1];
         for (const auto& polygon : polygons)
-            for (const auto& vertex : polygon) clip.fit.add(vertex.w, vertex.z);
+            for (const auto& vertex : polygon) fit.add(vertex.w, vertex.z);
     }
 
     /// After the frame.
     void finish(std::optional<double> view_angle) {
-        for (auto& [index, clip] : clip_draws) understand(index, clip, view_angle);
+        for (const auto& [index, fits] : clip_draws) understand(index, fits, view_angle);
         for (Group& group : scene.groups) {
             if (group.framebuffer == 0 || !group.is_spatial()) continue;
             // Where the way is not seen, a picture that only stands on its head is taken to be put on its feet.
@@ -182,10 +189,7 @@ class Analysis final : public DrawGate {
     }
 
   private:
-    struct ClipDraws {
-        long draws = 0;
-        DepthLineFit fit;
-    };
+    using ClipDraws = std::map<std::size_t, DepthLineFit>; ///< by draw
 
     bool writes_colour() const {
         GLboolean mask[4] = {};
@@ -223,6 +227,10 @@ class Analysis final : public DrawGate {
         now.depth_reversed = greater != (range[0] > range[1]);
         now.camera = sight.camera;
         now.depth = sight.depth;
+        if (now.camera && now.camera->lens.perspective && !keeps_shapes(now.camera->to_eye)) {
+            now.in_screen_space = true;
+            now.camera->to_eye = glm::dmat4(1.0);
+        }
         const glm::dmat4& base = pushed && !is_projective(*pushed) ? *pushed : modelview;
         if (const auto scale = sight.in_modelview ? std::nullopt : scale_before_view(sight.projection, base))
             now.unscale = glm::inverse(*scale);
@@ -243,7 +251,8 @@ class Analysis final : public DrawGate {
 
     /// From the space that the sight's projection takes to that of the group's.
     static glm::dmat4 between(const Group& group, const Sight& sight) {
-        if (sight.projection == group.projection || !group.camera || !sight.camera) return glm::dmat4(1.0);
+        const bool is_its_own = sight.projection == group.projection && !group.in_screen_space;
+        if (is_its_own || !group.camera || !sight.camera) return glm::dmat4(1.0);
         return to_space_of(*group.camera, *sight.camera).value_or(glm::dmat4(1.0));
     }
 
@@ -311,32 +320,38 @@ class Analysis final : public DrawGate {
         return name != 0 ? std::optional(static_cast<GLuint>(name)) : std::nullopt;
     }
 
-    /// A group drawn in clip coordinates: what its depths tell of near and far planes, and the field of view of
-    /// another draw, or as told, or a guess. Then a matrix takes them to eye space.
-    void understand(int index, const ClipDraws& clip, std::optional<double> view_angle) {
+    /// A group drawn in clip coordinates: what depths tell of near and far planes, and the field of view of another
+    /// draw, or as told, or a guess. Then a matrix takes them to eye space.
+    void understand(int index, const ClipDraws& fits, std::optional<double> view_angle) {
         Group& group = scene.groups[index];
-        if (!clip.fit.varies()) return;
-        const auto line = clip.fit.line();
-        if (!line || clip.draws < group.draws) {
-            group.with_own_w = clip.draws;
+        const auto odd = [](const auto& each) { return each.second.varies() && !each.second.line(); };
+        const auto known =
+            std::find_if(fits.begin(), fits.end(), [](const auto& each) { return each.second.line().has_value(); });
+        const bool all = static_cast<long>(fits.size()) == group.draws;
+        if (known == fits.end() || !all || std::any_of(fits.begin(), fits.end(), odd)) {
+            group.with_own_w =
+                std::count_if(fits.begin(), fits.end(), [](const auto& each) { return each.second.varies(); });
             return;
         }
-        const auto shared = sights.lens_with(*line);
+        const DepthLine first = *known->second.line();
+        const auto shared = sights.lens_with(first);
         group.guessed_view = !shared && !view_angle;
         const Lens lens = shared ? *shared
                                  : lens_of_view(view_angle.value_or(guessed_degrees), group.viewport[2],
                                                 group.viewport[3]);
         group.kind = ProjectionKind::perspective;
         group.camera = Camera{lens, glm::dmat4(1.0), true};
-        group.depth = line;
-        group.projection = projection_of(lens, *line);
-        group.projections = {group.projection};
-        EyeMap map;
-        map.rows = clip_to_eye(lens);
-        map.rows[2][3] = 1 / line->shift, map.rows[3][3] = -line->slope / line->shift;
-        const int at = index_of(map);
-        for (Draw& draw : scene.draws)
-            if (draw.group == index) draw.eye_map = at;
+        group.depth = first;
+        group.projection = projection_of(lens, first);
+        group.projections.clear();
+        for (const auto& [draw, fit] : fits) {
+            const DepthLine line = fit.line().value_or(first);
+            EyeMap map;
+            map.rows = clip_to_eye(lens);
+            map.rows[2][3] = 1 / line.shift, map.rows[3][3] = -line.slope / line.shift;
+            scene.draws[draw].eye_map = index_of(map);
+            if (group.projections.size() < most_projections) group.projections.push_back(projection_of(lens, line));
+        }
     }
 
     Sights& sights;
