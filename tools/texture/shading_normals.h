@@ -1,5 +1,6 @@
-// The vertex normals that a normal map is made for.
+// Normals that a level can be shaded with: those that a normal map is made for, and those of wedges.
 #pragma once
+#include "tools/mesh/wedges.h"
 #include "tools/texture/neighbours.h"
 
 namespace glcast {
@@ -12,5 +13,11 @@ namespace glcast {
 /// for all corners of a vertex: seams of the atlas are no seams of the shading.
 void make_shading_normals(Mesh& mesh, const Neighbours& neighbours,
                           const std::vector<glm::vec3>& triangle_normals);
+
+/// Turns the normals of wedges that are further than `degrees` from a triangle of theirs, or from the back of one where
+/// they point inward, towards it, until they are not. What then points inward, joined to what does not, is turned about
+/// as above.
+void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                   const std::vector<glm::vec3>& triangle_normals, double degrees);
 
 } // namespace glcast
