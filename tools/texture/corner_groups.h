@@ -7,8 +7,8 @@ namespace glcast {
 
 /// Corners of one vertex are joined while what is shown there, over their triangles, agrees to this.
 struct JoinLimits {
-    double degrees = 30; ///< between normals
-    double colour = 0.15; ///< of a channel
+    double degrees; ///< between normals
+    double colour;  ///< of a channel
 };
 
 /// By triangle, the wedge of each corner, numbered by vertex; `wedges`: how many there are. Corners of a vertex are

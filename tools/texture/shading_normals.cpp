@@ -99,31 +99,59 @@ void make_shading_normals(Mesh& mesh, const Neighbours& neighbours, const std::v
     });
 }
 
-void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
-                   const std::vector<glm::vec3>& normals, double degrees) {
+namespace {
+
+/// The triangles of wedges in the mesh.
+struct WedgePlaces {
+    std::vector<std::uint32_t> vertex;
+    std::vector<glm::vec3> normal; ///< mean of its triangles, by angle, not unit
+
+    WedgePlaces(const Mesh& mesh, const Wedges& wedges, const std::vector<glm::vec3>& normals)
+        : vertex(wedges.normals.size()), normal(wedges.normals.size(), glm::vec3(0)) {
+        for (std::uint32_t t = 0; t < wedges.corners.size(); ++t)
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                normal[wedges.corners[t][k]] += normals[t] * angle_at(mesh, 3 * t + k);
+                vertex[wedges.corners[t][k]] = mesh.triangles[t][k];
+            }
+    }
+};
+
+/// Which of them point inward.
+std::vector<std::uint8_t> bound(const WedgePlaces& places, const Neighbours& neighbours, Wedges& wedges,
+                                const std::vector<glm::vec3>& normals, double degrees) {
     constexpr int rounds = 4; // triangles of a wedge may want different turns
     const float radians = float(degrees * std::numbers::pi / 180);
-    std::vector<glm::vec3> mean(wedges.normals.size(), glm::vec3(0));
-    std::vector<std::uint32_t> vertex_of(wedges.normals.size());
-    for (std::uint32_t t = 0; t < wedges.corners.size(); ++t)
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            mean[wedges.corners[t][k]] += normals[t] * angle_at(mesh, 3 * t + k);
-            vertex_of[wedges.corners[t][k]] = mesh.triangles[t][k];
-        }
-    std::vector<std::uint8_t> way(mean.size());
+    std::vector<std::uint8_t> way(wedges.normals.size());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(way.size()), 1024), [&](const auto& range) {
         for (std::uint32_t w = range.begin(); w < range.end(); ++w) {
             glm::vec3& normal = wedges.normals[w];
-            const float side = glm::dot(normal, mean[w]) < 0 ? -1.0f : 1.0f;
-            way[w] = side < 0 ? inward : outward;
+            const float along = glm::dot(normal, places.normal[w]);
+            way[w] = along < -std::cos(radians) * glm::length(places.normal[w]) ? inward : outward;
             for (int round = 0; round < rounds; ++round)
-                for (const std::uint32_t corner : neighbours.around(vertex_of[w]))
-                    if (wedges.corners[corner / 3][corner % 3] == w && normals[corner / 3] != glm::vec3(0))
-                        normal = turned_towards(normal, side * normals[corner / 3], radians);
+                for (const std::uint32_t corner : neighbours.around(places.vertex[w])) {
+                    const glm::vec3& axis = normals[corner / 3];
+                    if (wedges.corners[corner / 3][corner % 3] != w || axis == glm::vec3(0)) continue;
+                    normal = turned_towards(normal, way[w] == inward ? -axis : axis, radians);
+                }
         }
     });
+    return way;
+}
+
+} // namespace
+
+void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                   const std::vector<glm::vec3>& normals, double degrees) {
+    bound(WedgePlaces(mesh, wedges, normals), neighbours, wedges, normals, degrees);
+}
+
+void make_shading_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                          const std::vector<glm::vec3>& normals) {
+    constexpr double degrees = 60;
+    const WedgePlaces places(mesh, wedges, normals);
+    std::vector<std::uint8_t> way = bound(places, neighbours, wedges, normals, degrees);
     turn_inward_parts(wedges.normals, way, [&](std::uint32_t wedge, const auto& visit) {
-        for (const std::uint32_t corner : neighbours.around(vertex_of[wedge]))
+        for (const std::uint32_t corner : neighbours.around(places.vertex[wedge]))
             for (const std::uint32_t w : wedges.corners[corner / 3]) visit(w);
     });
 }

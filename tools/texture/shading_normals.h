@@ -14,10 +14,14 @@ namespace glcast {
 void make_shading_normals(Mesh& mesh, const Neighbours& neighbours,
                           const std::vector<glm::vec3>& triangle_normals);
 
-/// Turns the normals of wedges that are further than `degrees` from a triangle of theirs, or from the back of one where
-/// they point inward, towards it, until they are not. What then points inward, joined to what does not, is turned about
-/// as above.
+/// Turns normals of wedges that are further than `degrees` from a triangle of theirs towards it, until they are not. What
+/// points inward, further from it than 180 - `degrees`, stays inward and is bounded likewise.
 void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
                    const std::vector<glm::vec3>& triangle_normals, double degrees);
+
+/// The same for wedges that a normal map is made for; and what then points inward, joined to what does not, is turned
+/// about.
+void make_shading_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                          const std::vector<glm::vec3>& triangle_normals);
 
 } // namespace glcast
