@@ -13,6 +13,11 @@ inline double cosine(const glm::dvec3& a, const glm::dvec3& b) {
     return lengths > 0 ? glm::dot(a, b) / lengths : 0;
 }
 
+inline glm::dvec3 unit(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec3(0);
+}
+
 struct Corners {
     glm::dvec3 a, b, c;
 

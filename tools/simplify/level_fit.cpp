@@ -112,8 +112,8 @@ double LevelFit::lay_level() {
         OnLevel& on = points[i];
         const Faced& t = faced[on.place.triangle];
         const bool is_vertex = i + vertices >= points.size();
-        on.place.off =
-            tree.way_to_surface(t.at.at(on.place.weights), is_vertex ? glm::dvec3(0) : t.normal, on.near);
+        on.place.off = tree.way_to_surface(t.at.at(on.place.weights),
+                                           is_vertex ? glm::dvec3(0) : unit(t.normal), on.near);
         on.place.squared = glm::dot(on.place.off, on.place.off);
     });
     double sum = 0;

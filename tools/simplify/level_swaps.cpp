@@ -13,10 +13,8 @@ constexpr std::uint32_t no_triangle = UINT32_MAX;
 constexpr double min_swap_cosine = 0.2, min_swap_gain = 0.01, min_quality = 0.02;
 
 /// The middles of the four triangles that its sides' middles cut it into.
-constexpr glm::dvec3 places_in_triangle[] = {{1. / 3, 1. / 3, 1. / 3},
-                                             {2. / 3, 1. / 6, 1. / 6},
-                                             {1. / 6, 2. / 3, 1. / 6},
-                                             {1. / 6, 1. / 6, 2. / 3}};
+constexpr glm::dvec3 places_in_triangle[] = {
+    {1. / 3, 1. / 3, 1. / 3}, {2. / 3, 1. / 6, 1. / 6}, {1. / 6, 2. / 3, 1. / 6}, {1. / 6, 1. / 6, 2. / 3}};
 
 /// Squared distance from the nearer one: likely the first.
 double nearest_of(const glm::dvec3& point, const Faced& likely, const Faced& other) {
@@ -111,6 +109,7 @@ bool LevelFit::better_swapped(const Diamond& at, std::span<const std::uint32_t> 
             after += nearest_of(p, new_ones[second], new_ones[!second]);
             if (after >= before) return false;
         }
+    if (!(after < before)) return false;
     const std::uint32_t near = laid_left.empty() ? laid_right.front() : laid_left.front();
     return after + squares_of(now[0], near) + squares_of(now[1], near) <
            before + squares_of(was[0], near) + squares_of(was[1], near);
@@ -121,7 +120,7 @@ double LevelFit::squares_of(const Corners& triangle, std::uint32_t near) const {
     const glm::dvec3 normal = triangle.normal();
     double sum = 0;
     for (const glm::dvec3& weights : places_in_triangle) {
-        const glm::dvec3 way = tree.way_to_surface(triangle.at(weights), normal, near);
+        const glm::dvec3 way = tree.way_to_surface(triangle.at(weights), unit(normal), near);
         sum += glm::dot(way, way);
     }
     return sum / double(std::size(places_in_triangle)) * glm::length(normal) / 2 / (spacing * spacing);

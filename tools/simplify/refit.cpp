@@ -27,9 +27,7 @@ std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint3
     tbb::parallel_for(std::size_t(0), samples.size(), [&](std::size_t i) {
         const Triangle& triangle = over.surface.triangles[points[i].triangle];
         const Corners at(over.surface, triangle);
-        const glm::dvec3 normal = at.normal();
-        const double length = glm::length(normal);
-        samples[i] = {at.at(points[i].weights), length > 0 ? normal / length : normal, became[triangle[0]]};
+        samples[i] = {at.at(points[i].weights), unit(at.normal()), became[triangle[0]]};
     });
     return samples;
 }

@@ -11,6 +11,7 @@ namespace glcast {
 namespace {
 
 constexpr double hardly_farther = 2; // spacings
+constexpr double least_cosine = 0.7; // of normals that agree
 
 } // namespace
 
@@ -82,19 +83,24 @@ void SampleTree::search(const glm::dvec3& point, std::uint32_t& near, double& wi
 
 glm::dvec3 SampleTree::way_to_surface(const glm::dvec3& point, const glm::dvec3& facing,
                                       std::uint32_t& near) const {
+    const auto agrees = [&](std::uint32_t sample) {
+        return glm::dot(facing, samples[sample].normal) > least_cosine;
+    };
     double of_all = squared(near, point);
     search(point, near, of_all, [](std::uint32_t) { return true; });
-    if (glm::dot(facing, samples[near].normal) < 0) {
+    if (!agrees(near)) {
         double within = std::sqrt(of_all) + hardly_farther * spacing;
         within *= within;
-        search(point, near, within,
-               [&](std::uint32_t sample) { return glm::dot(facing, samples[sample].normal) > 0; });
+        search(point, near, within, agrees);
     }
-    const Sample& found = samples[near];
-    const glm::dvec3 off = found.at - point, up = glm::dot(off, found.normal) * found.normal,
-                     along = off - up;
-    const double length = glm::length(along);
-    return length > spacing ? up + along * (1 - spacing / length) : up;
+    const glm::dvec3 off = samples[near].at - point;
+    const auto shortened = [&](const glm::dvec3& way) {
+        const double length = glm::length(way);
+        return length > spacing ? way * (1 - spacing / length) : glm::dvec3(0);
+    };
+    if (!agrees(near)) return shortened(off); // its plane may end in between, at a crease
+    const glm::dvec3 up = glm::dot(off, samples[near].normal) * samples[near].normal;
+    return up + shortened(off - up);
 }
 
 } // namespace glcast

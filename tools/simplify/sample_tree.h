@@ -19,9 +19,10 @@ class SampleTree {
     /// `spacing`: what samples are apart. They must outlive this.
     SampleTree(std::span<const Sample> samples, double spacing);
 
-    /// From a point to the surface: the plane of the nearest sample, as far around it as samples are apart.
-    /// That is one that faces as `facing` (0: any) does, if one is hardly farther than the nearest of all.
-    /// `near` is a sample to look at first, and becomes the one that was found.
+    /// From a point to the surface: to the plane of the nearest sample that faces as `facing` (of length 1)
+    /// does, as far around it as samples are apart, if one is hardly farther than the nearest of all. Else,
+    /// and where `facing` is 0, to the nearest of all, less what samples are apart. `near` is a sample to
+    /// look at first, and becomes the one that was found.
     glm::dvec3 way_to_surface(const glm::dvec3& point, const glm::dvec3& facing, std::uint32_t& near) const;
 
   private:
