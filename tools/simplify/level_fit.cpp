@@ -23,6 +23,7 @@ constexpr double vertex_importance = 1; // against a sample
 // little: an eighth more error.
 constexpr double farther = 2;
 constexpr int most_halvings = 4;
+constexpr double folded = -0.985; // cosine of the normals at an edge: ten degrees from back to back
 
 } // namespace
 
@@ -210,7 +211,7 @@ bool LevelFit::move_guarded(std::uint32_t v, const glm::dvec3& to) {
     const auto around = walk->around(v);
     SurfaceChange change{{around.begin(), around.end()}, {}, v, to};
     for (const std::uint32_t t : change.replaced) change.made.push_back(mesh.triangles[t]);
-    if (guard.crosses(surface(), change)) return false;
+    if (folds(change) || guard.crosses(surface(), change)) return false;
     mesh.positions[v] = to;
     guard.made_it(surface(), change);
     return true;
@@ -226,6 +227,40 @@ bool LevelFit::keeps_shape(std::uint32_t v, const glm::dvec3& to) const {
         if (good < min_quality && good < before.quality()) return false;
     }
     return true;
+}
+
+/// The least cosine of normals at an edge of `triangles`, corners and all, to one another and to what they
+/// are joined to, `replaced` left out.
+double LevelFit::sharpest(std::span<const Triangle> triangles, const SurfaceChange& change, bool made) const {
+    const auto normal = [&](const Triangle& t) {
+        glm::dvec3 at[3];
+        for (std::size_t k = 0; k < 3; ++k)
+            at[k] = made && t[k] == change.moved ? change.to : mesh.positions[t[k]];
+        return glm::cross(at[1] - at[0], at[2] - at[0]);
+    };
+    double least = 1;
+    for (const Triangle& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = t[(k + 1) % 3], to = t[k]; // as the neighbour runs
+            const auto look = [&](const Triangle& other) {
+                for (std::size_t j = 0; j < 3; ++j)
+                    if (other[j] == from && other[(j + 1) % 3] == to)
+                        least = std::min(least, cosine(normal(t), normal(other)));
+            };
+            for (const Triangle& other : triangles) look(other);
+            for (const std::uint32_t other : walk->around(from))
+                if (std::ranges::find(change.replaced, other) == change.replaced.end())
+                    look(mesh.triangles[other]);
+        }
+    return least;
+}
+
+/// Would two triangles come to lie back to back, where none did?
+bool LevelFit::folds(const SurfaceChange& change) const {
+    if (sharpest(change.made, change, true) >= folded) return false;
+    std::vector<Triangle> before;
+    for (const std::uint32_t t : change.replaced) before.push_back(mesh.triangles[t]);
+    return sharpest(before, change, false) >= folded;
 }
 
 } // namespace glcast

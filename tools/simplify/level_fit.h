@@ -76,6 +76,8 @@ class LevelFit {
     void move_to(const std::vector<glm::dvec3>& wanted);
     bool move_guarded(std::uint32_t v, const glm::dvec3& to);
     bool keeps_shape(std::uint32_t v, const glm::dvec3& to) const;
+    bool folds(const SurfaceChange& change) const;
+    double sharpest(std::span<const Triangle> triangles, const SurfaceChange& change, bool made) const;
 
     Laid samples_by_triangle() const;
     bool are_joined(std::uint32_t v, std::uint32_t w) const;

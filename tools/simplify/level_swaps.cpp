@@ -39,7 +39,7 @@ void LevelFit::swap_edges() {
             if (touched[d]) continue;
             if (!better_swapped(*diamond, laid_on(left), laid_on(right))) continue;
             const SurfaceChange change{{left, right}, {{a, d, c}, {d, b, c}}};
-            if (guard.crosses(surface(), change)) continue;
+            if (folds(change) || guard.crosses(surface(), change)) continue;
             mesh.triangles[left] = change.made[0];
             mesh.triangles[right] = change.made[1];
             guard.made_it(surface(), change);
