@@ -35,7 +35,8 @@ bool along(const glm::dvec3& r, int at, bool z_too) {
 std::optional<Camera> plain_perspective(const glm::dmat4& p) {
     const glm::dvec3 r4 = row(p, 3);
     const double size = std::abs(r4.z);
-    if (!(size > 0) || r4.x != 0 || r4.y != 0 || p[3][3] != 0 || p[3][0] != 0 || p[3][1] != 0) return std::nullopt;
+    if (!(size > 0) || r4.x != 0 || r4.y != 0 || p[3][3] != 0 || p[3][0] != 0 || p[3][1] != 0)
+        return std::nullopt;
     const glm::dvec3 r1 = row(p, 0), r2 = row(p, 1);
     if (!along(r1, 0, true) || !along(r2, 1, true)) return std::nullopt;
     Camera camera;
@@ -65,7 +66,8 @@ std::optional<Lens> perspective_lens(const glm::dmat4& m) {
     if (!(s2 > 0)) return std::nullopt;
     Lens lens;
     lens.sx = -glm::dot(r1, r4) / s2, lens.sy = -glm::dot(r2, r4) / s2;
-    const double fx2 = glm::dot(r1, r1) / s2 - lens.sx * lens.sx, fy2 = glm::dot(r2, r2) / s2 - lens.sy * lens.sy;
+    const double fx2 = glm::dot(r1, r1) / s2 - lens.sx * lens.sx,
+                 fy2 = glm::dot(r2, r2) / s2 - lens.sy * lens.sy;
     if (!(fx2 > rounding * lens.sx * lens.sx) || !(fy2 > rounding * lens.sy * lens.sy)) return std::nullopt;
     lens.fx = std::sqrt(fx2), lens.fy = std::sqrt(fy2);
     const double skew = (glm::dot(r1, r2) / s2 - lens.sx * lens.sy) / (lens.fx * lens.fy);
@@ -162,7 +164,8 @@ std::optional<DepthLine> find_depth_line(const glm::dmat4& m) {
     line.slope = glm::dot(r3, r4) / s2;
     line.shift = m[3][2] - line.slope * m[3][3];
     const double apart = glm::length(r3 - line.slope * r4);
-    if (!(apart <= 1e-5 * (glm::length(r3) + std::sqrt(s2))) || !std::isfinite(line.shift)) return std::nullopt;
+    if (!(apart <= 1e-5 * (glm::length(r3) + std::sqrt(s2))) || !std::isfinite(line.shift))
+        return std::nullopt;
     return line;
 }
 
@@ -197,7 +200,8 @@ bool all_but_same(const glm::dmat4& a, const glm::dmat4& b) {
     return apart <= rounding * size && largest_of(from - to) <= rounding * far + 1e-9 * size;
 }
 
-/// Of two parallel cameras that are not plain: `camera` under the lens of `reference`, where only the size differs.
+/// Of two parallel cameras that are not plain: `camera` under the lens of `reference`, where only the size
+/// differs.
 std::optional<glm::dmat4> under_lens_of(const Camera& reference, const Camera& camera) {
     constexpr double same = 1e-3;
     const double x = camera.lens.fx / reference.lens.fx, y = camera.lens.fy / reference.lens.fy,
@@ -237,7 +241,8 @@ double depth_nudge(const DepthLine& reference, const DepthLine& nudged, bool per
     const auto is_nudge = [](double moved) { return std::abs(moved) >= least && std::abs(moved) <= most; };
     if (!perspective) {
         const double moved = nudged.shift - reference.shift;
-        const bool same_slope = std::abs(nudged.slope - reference.slope) <= rounding * std::abs(reference.slope);
+        const bool same_slope =
+            std::abs(nudged.slope - reference.slope) <= rounding * std::abs(reference.slope);
         return same_slope && is_nudge(moved) ? moved / 2 : 0;
     }
     // Where the near plane is, so that a far plane moved by much is no nudge.
@@ -292,7 +297,8 @@ std::optional<glm::dvec3> find_scale_of_rows(const glm::dmat4& m) {
     double columns = 0;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
-        if (std::abs(glm::dot(row(m, i), row(m, j))) > perpendicular * length[i] * length[j]) return std::nullopt;
+        if (std::abs(glm::dot(row(m, i), row(m, j))) > perpendicular * length[i] * length[j])
+            return std::nullopt;
         const glm::dvec3 a(m[i]), b(m[j]);
         columns = std::max(columns, std::abs(glm::dot(a, b)) / (glm::length(a) * glm::length(b)));
     }

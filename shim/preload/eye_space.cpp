@@ -64,7 +64,8 @@ void EyeSpace::note_planes() {
             GLint mode = 0;
             if (gl.IsEnabled(GL_TEXTURE_GEN_S + i)) gl.GetTexGeniv(GL_S + i, GL_TEXTURE_GEN_MODE, &mode);
             if (mode != GL_EYE_LINEAR) continue;
-            Plane& plane = planes.emplace_back(Plane{true, GL_S + i, GL_TEXTURE0 + static_cast<GLenum>(unit), {}});
+            Plane& plane =
+                planes.emplace_back(Plane{true, GL_S + i, GL_TEXTURE0 + static_cast<GLenum>(unit), {}});
             gl.GetTexGendv(plane.name, GL_EYE_PLANE, plane.values);
         }
     }

@@ -1,5 +1,6 @@
-// A draw moved into the eye space of its group: its modelview matrix is changed for the draw alone, and with it what GL
-// keeps in eye space (clip planes, planes of texture coordinates). The projection, lights and all else stay as they are.
+// A draw moved into the eye space of its group: its modelview matrix is changed for the draw alone, and with
+// it what GL keeps in eye space (clip planes, planes of texture coordinates). The projection, lights and all
+// else stay as they are.
 #pragma once
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace glcast::preload {
 class EyeSpace {
   public:
     explicit EyeSpace(const GlTable& table) : gl(table) {}
-    /// Before the draw, outside of glBegin. `nudge`: how much deeper the program draws it than others of the group.
+    /// Before the draw, outside of glBegin. `nudge`: how much deeper the program draws it than others of the
+    /// group.
     void enter(const EyeMap* map, double nudge);
     /// After it.
     void leave();

@@ -6,7 +6,7 @@
 namespace glcast::preload {
 namespace {
 
-constexpr std::size_t room = 1 << 16; // floats
+constexpr std::size_t room = 1 << 16;        // floats
 constexpr std::ptrdiff_t vertex_floats = 12; // GL_4D_COLOR_TEXTURE with RGBA
 
 FeedbackProbe::Vertex vertex_at(const GLfloat* v, const GLdouble range[2]) {
@@ -53,7 +53,8 @@ std::vector<FeedbackProbe::Polygon> FeedbackProbe::end() {
         if (vertices <= 0 || stop - at < vertices * vertex_floats) break;
         if (token == GL_POLYGON_TOKEN) {
             Polygon& polygon = polygons.emplace_back();
-            for (std::ptrdiff_t i = 0; i < vertices; ++i) polygon.push_back(vertex_at(at + i * vertex_floats, range));
+            for (std::ptrdiff_t i = 0; i < vertices; ++i)
+                polygon.push_back(vertex_at(at + i * vertex_floats, range));
         }
         at += vertices * vertex_floats;
     }
@@ -63,8 +64,10 @@ std::vector<FeedbackProbe::Polygon> FeedbackProbe::end() {
 bool shows_mirrored(const std::vector<FeedbackProbe::Polygon>& polygons) {
     double product = 0;
     for (const auto& polygon : polygons)
-        product += area(polygon, [](const auto& v) { return v.x; }, [](const auto& v) { return v.y; }) *
-                   area(polygon, [](const auto& v) { return v.s; }, [](const auto& v) { return v.t; });
+        product += area(
+                       polygon, [](const auto& v) { return v.x; }, [](const auto& v) { return v.y; }) *
+                   area(
+                       polygon, [](const auto& v) { return v.s; }, [](const auto& v) { return v.t; });
     return product < 0;
 }
 

@@ -9,9 +9,9 @@ namespace glcast::preload {
 class FeedbackProbe {
   public:
     struct Vertex {
-        double x, y;     ///< window coordinates
-        double z, w;     ///< clip coordinates
-        double s, t;     ///< of the texture
+        double x, y; ///< window coordinates
+        double z, w; ///< clip coordinates
+        double s, t; ///< of the texture
     };
     using Polygon = std::vector<Vertex>;
 
@@ -29,7 +29,8 @@ class FeedbackProbe {
     bool open = false;
 };
 
-/// The texture is seen as its mirror image: it turns the other way in the window. False where nothing is seen.
+/// The texture is seen as its mirror image: it turns the other way in the window. False where nothing is
+/// seen.
 bool shows_mirrored(const std::vector<FeedbackProbe::Polygon>& polygons);
 
 } // namespace glcast::preload

@@ -181,7 +181,8 @@ class Analysis final : public DrawGate {
         for (const auto& [index, fits] : clip_draws) understand(index, fits, view_angle);
         for (Group& group : scene.groups) {
             if (group.framebuffer == 0 || !group.is_spatial()) continue;
-            // Where the way is not seen, a picture that only stands on its head is taken to be put on its feet.
+            // Where the way is not seen, a picture that only stands on its head is taken to be put on its
+            // feet.
             const bool on_its_head =
                 group.camera && group.camera->plain && group.camera->lens.fy < 0 && group.camera->lens.fx > 0;
             group.turned_round = way.mirrors(group.framebuffer, inner).value_or(on_its_head);
@@ -205,8 +206,8 @@ class Analysis final : public DrawGate {
         return modes[0] == GL_FILL || modes[1] == GL_FILL ? Draw::Kind::filled : Draw::Kind::outlined;
     }
 
-    int find_group(const Sight& sight, const std::array<GLint, 4>& viewport, bool tests_depth, GLint depth_function,
-                   const glm::dmat4& modelview) {
+    int find_group(const Sight& sight, const std::array<GLint, 4>& viewport, bool tests_depth,
+                   GLint depth_function, const glm::dmat4& modelview) {
         Group now;
         now.framebuffer = framebuffer;
         now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
@@ -264,7 +265,8 @@ class Analysis final : public DrawGate {
             projection = projection_of(sight.camera->lens, *sight.depth);
         }
         const auto& all = group.projections;
-        if (std::find(all.begin(), all.end(), projection) == all.end()) group.projections.push_back(projection);
+        if (std::find(all.begin(), all.end(), projection) == all.end())
+            group.projections.push_back(projection);
     }
 
     int eye_map_of(const Sight& sight, const Group& group) {
@@ -283,7 +285,8 @@ class Analysis final : public DrawGate {
 
     int index_of(const EyeMap& map) {
         auto& maps = scene.eye_maps;
-        if (maps.empty() || maps.back().rows != map.rows || maps.back().origin != map.origin) maps.push_back(map);
+        if (maps.empty() || maps.back().rows != map.rows || maps.back().origin != map.origin)
+            maps.push_back(map);
         return static_cast<int>(maps.size()) - 1;
     }
 
@@ -320,25 +323,25 @@ class Analysis final : public DrawGate {
         return name != 0 ? std::optional(static_cast<GLuint>(name)) : std::nullopt;
     }
 
-    /// A group drawn in clip coordinates: what depths tell of near and far planes, and the field of view of another
-    /// draw, or as told, or a guess. Then a matrix takes them to eye space.
+    /// A group drawn in clip coordinates: what depths tell of near and far planes, and the field of view of
+    /// another draw, or as told, or a guess. Then a matrix takes them to eye space.
     void understand(int index, const ClipDraws& fits, std::optional<double> view_angle) {
         Group& group = scene.groups[index];
         const auto odd = [](const auto& each) { return each.second.varies() && !each.second.line(); };
-        const auto known =
-            std::find_if(fits.begin(), fits.end(), [](const auto& each) { return each.second.line().has_value(); });
+        const auto known = std::find_if(fits.begin(), fits.end(),
+                                        [](const auto& each) { return each.second.line().has_value(); });
         const bool all = static_cast<long>(fits.size()) == group.draws;
         if (known == fits.end() || !all || std::any_of(fits.begin(), fits.end(), odd)) {
-            group.with_own_w =
-                std::count_if(fits.begin(), fits.end(), [](const auto& each) { return each.second.varies(); });
+            group.with_own_w = std::count_if(fits.begin(), fits.end(),
+                                             [](const auto& each) { return each.second.varies(); });
             return;
         }
         const DepthLine first = *known->second.line();
         const auto shared = sights.lens_with(first);
         group.guessed_view = !shared && !view_angle;
-        const Lens lens = shared ? *shared
-                                 : lens_of_view(view_angle.value_or(guessed_degrees), group.viewport[2],
-                                                group.viewport[3]);
+        const Lens lens =
+            shared ? *shared
+                   : lens_of_view(view_angle.value_or(guessed_degrees), group.viewport[2], group.viewport[3]);
         group.kind = ProjectionKind::perspective;
         group.camera = Camera{lens, glm::dmat4(1.0), true};
         group.depth = first;
@@ -350,7 +353,8 @@ class Analysis final : public DrawGate {
             map.rows = clip_to_eye(lens);
             map.rows[2][3] = 1 / line.shift, map.rows[3][3] = -line.slope / line.shift;
             scene.draws[draw].eye_map = index_of(map);
-            if (group.projections.size() < most_projections) group.projections.push_back(projection_of(lens, line));
+            if (group.projections.size() < most_projections)
+                group.projections.push_back(projection_of(lens, line));
         }
     }
 
@@ -378,8 +382,8 @@ Scene look(const record::Frame& frame, const GlTable& gl, Sights& sights, Questi
 
 } // namespace
 
-// The prologue pushes matrices of its own where the frame starts with some on the stack: none of them is the base.
-// Few frames need a second look.
+// The prologue pushes matrices of its own where the frame starts with some on the stack: none of them is the
+// base. Few frames need a second look.
 Scene analyse(const record::Frame& frame, const GlTable& gl, std::optional<double> view_angle) {
     Sights sights;
     Questions questions;

@@ -20,7 +20,8 @@ bool is_perspective(const glm::dmat4& p) { return p[0][3] != 0 || p[1][3] != 0 |
 const Sight& Sights::look(const glm::dmat4& projection, const glm::dmat4& modelview,
                           const std::array<GLint, 4>& viewport) {
     const bool in_modelview = is_projective(modelview) && !is_perspective(projection);
-    if (last && !in_modelview && !last->in_modelview && last->projection == projection && last_viewport == viewport)
+    if (last && !in_modelview && !last->in_modelview && last->projection == projection &&
+        last_viewport == viewport)
         return *last;
     Sight sight;
     sight.projection = projection;

@@ -1,4 +1,5 @@
-// How the program looks at each draw: the camera in its matrices, and what takes the draws of one camera to one eye space.
+// How the program looks at each draw: the camera in its matrices, and what takes the draws of one camera to
+// one eye space.
 #pragma once
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -15,14 +16,14 @@ struct Sight {
     glm::dmat4 projection{1.0};
     bool perspective = false;
     bool in_modelview = false; ///< the projection stands before the view in the modelview matrix
-    /// What takes eye space, as the program's modelview makes it, to the screen's; where the projection is in the
-    /// modelview, only its lens. Nothing where the matrices hold no camera.
+    /// What takes eye space, as the program's modelview makes it, to the screen's; where the projection is in
+    /// the modelview, only its lens. Nothing where the matrices hold no camera.
     std::optional<Camera> camera;
     std::optional<DepthLine> depth;
 };
 
-/// What becomes of a draw's modelview matrix M so that the draw lies in the eye space of its group: rows M, and
-/// `origin` added to the last column.
+/// What becomes of a draw's modelview matrix M so that the draw lies in the eye space of its group: rows M,
+/// and `origin` added to the last column.
 struct EyeMap {
     glm::dmat4 rows{1.0};
     glm::dvec4 origin{0};
@@ -33,10 +34,11 @@ struct EyeMap {
 class Sights {
   public:
     /// Valid until the next call.
-    const Sight& look(const glm::dmat4& projection, const glm::dmat4& modelview, const std::array<GLint, 4>& viewport);
+    const Sight& look(const glm::dmat4& projection, const glm::dmat4& modelview,
+                      const std::array<GLint, 4>& viewport);
 
-    /// Some perspective holds no camera that could be told from what had come before it, and others do: looking again
-    /// with what is known now may tell.
+    /// Some perspective holds no camera that could be told from what had come before it, and others do:
+    /// looking again with what is known now may tell.
     bool may_know_more() const { return was_unknown && !known.empty(); }
     /// For that. Of draws that come.
     void look_again() { was_unknown = false, last = {}; }

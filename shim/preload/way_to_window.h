@@ -1,5 +1,5 @@
-// How what is drawn into framebuffer objects gets into the window: by blits, and as textures on polygons. Direct3D under
-// Wine, and many engines, draw upside down there and turn the picture round on its way.
+// How what is drawn into framebuffer objects gets into the window: by blits, and as textures on polygons.
+// Direct3D under Wine, and many engines, draw upside down there and turn the picture round on its way.
 #pragma once
 #include <array>
 #include <optional>
@@ -18,8 +18,8 @@ class WayToWindow {
     /// A polygon with the texture is drawn into `to`.
     void show_texture(GLuint texture, GLuint to, bool mirrored);
 
-    /// Is the picture of a framebuffer mirrored an odd number of times before it is in the window? Nothing where it
-    /// does not get there. `gl`: to ask what is attached.
+    /// Is the picture of a framebuffer mirrored an odd number of times before it is in the window? Nothing
+    /// where it does not get there. `gl`: to ask what is attached.
     std::optional<bool> mirrors(GLuint framebuffer, const GlTable& gl) const;
 
   private:

@@ -28,9 +28,12 @@ class Random {
     glm::dmat4 rotation() { return glm::rotate(glm::dmat4(1.0), between(0, 6.28), direction()); }
     glm::dmat4 similarity(double scale) {
         const glm::dvec3 to(between(-5, 5), between(-5, 5), between(-20, -2));
-        return glm::translate(glm::dmat4(1.0), to) * rotation() * glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
+        return glm::translate(glm::dmat4(1.0), to) * rotation() *
+               glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
     }
-    Lens lens() { return {true, between(0.3, 5), between(0.3, 5), between(-0.5, 0.5), between(-0.5, 0.5), 1}; }
+    Lens lens() {
+        return {true, between(0.3, 5), between(0.3, 5), between(-0.5, 0.5), between(-0.5, 0.5), 1};
+    }
 
   private:
     std::mt19937 engine{20061};
@@ -52,7 +55,9 @@ void expect_lens(const Lens& found, const Lens& truth, double tolerance) {
 
 glm::dmat4 as_floats(const glm::dmat4& m) { return glm::dmat4(glm::mat4(m)); }
 
-DepthLine planes(double near, double far) { return {(far + near) / (far - near), -2 * far * near / (far - near)}; }
+DepthLine planes(double near, double far) {
+    return {(far + near) / (far - near), -2 * far * near / (far - near)};
+}
 
 glm::dmat4 perspective(const Lens& lens) { return projection_of(lens, planes(1, 50)); }
 
@@ -92,7 +97,8 @@ TEST(Camera, combined_with_a_similarity_is_taken_apart) {
 TEST(Camera, which_hand_it_is_shows_in_the_determinant) {
     Random random;
     for (int i = 0; i < rounds; ++i) {
-        const glm::dmat4 view = random.similarity(1), turn = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
+        const glm::dmat4 view = random.similarity(1),
+                         turn = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
         const glm::dmat4 p = perspective(random.lens());
         EXPECT_FALSE(is_mirrored(*find_camera(p * view)));
         EXPECT_TRUE(is_mirrored(*find_camera(turn * p * view)));
@@ -119,7 +125,8 @@ TEST(Camera, other_planes_and_fields_of_view_are_of_the_same_eye_and_other_centr
         const auto between = to_space_of(*reference, *other);
         ASSERT_TRUE(between);
         EXPECT_LT(apart(view * *between, moved), 1e-6);
-        EXPECT_EQ(to_space_of(*reference, *find_camera(projection_of(zoomed, planes(3, 4)) * view)), glm::dmat4(1.0));
+        EXPECT_EQ(to_space_of(*reference, *find_camera(projection_of(zoomed, planes(3, 4)) * view)),
+                  glm::dmat4(1.0));
         Lens shifted = lens;
         shifted.sx += 0.01;
         EXPECT_FALSE(to_space_of(*reference, *find_camera(perspective(shifted) * view)));
@@ -152,12 +159,14 @@ TEST(Camera, of_a_model_that_is_scaled_unevenly_is_found_by_columns_or_by_the_de
 }
 
 TEST(Camera, along_an_axis_of_a_stretched_model_columns_say_nothing) {
-    const glm::dmat4 model = glm::translate(glm::dmat4(1.0), {0, 0, -5}) * glm::scale(glm::dmat4(1.0), {1, 2, 0.5});
+    const glm::dmat4 model =
+        glm::translate(glm::dmat4(1.0), {0, 0, -5}) * glm::scale(glm::dmat4(1.0), {1, 2, 0.5});
     EXPECT_FALSE(find_camera_of_stretched(perspective({}) * model));
 }
 
 TEST(Camera, parallel_ones_are_of_one_eye_where_the_picture_has_the_same_frame) {
-    const glm::dmat4 near = glm::ortho(-2.0, 3.0, -1.0, 4.0, 1.0, 10.0), far = glm::ortho(-2.0, 3.0, -1.0, 4.0, -50.0, 90.0);
+    const glm::dmat4 near = glm::ortho(-2.0, 3.0, -1.0, 4.0, 1.0, 10.0),
+                     far = glm::ortho(-2.0, 3.0, -1.0, 4.0, -50.0, 90.0);
     const glm::dmat4 wide = glm::ortho(-4.0, 6.0, -1.0, 4.0, 1.0, 10.0);
     EXPECT_TRUE(find_camera(near)->plain);
     EXPECT_EQ(to_space_of(*find_camera(near), *find_camera(far)), glm::dmat4(1.0));
@@ -184,7 +193,8 @@ TEST(Camera, scale_before_the_view_shows_in_rows_and_that_of_a_model_in_columns)
         const glm::dmat4 away = glm::translate(glm::dmat4(1.0), {1, 2, -3}), turned = random.rotation();
         glm::dmat4 flipped = scale;
         flipped[2] = -flipped[2];
-        const auto found = find_scale_of_rows(scale * away * turned), turns = find_scale_of_rows(flipped * turned);
+        const auto found = find_scale_of_rows(scale * away * turned),
+                   turns = find_scale_of_rows(flipped * turned);
         ASSERT_TRUE(found && turns);
         EXPECT_LT(glm::length(*found - size), 1e-9);
         EXPECT_LT(glm::length(*turns - size * glm::dvec3(1, 1, -1)), 1e-9);
@@ -239,7 +249,8 @@ TEST(Camera, a_field_of_view_gives_square_pixels) {
 }
 
 TEST(Camera, what_holds_none_is_told) {
-    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinite = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(find_camera(glm::dmat4(0.0)));
     EXPECT_FALSE(find_camera(glm::dmat4(nan)));
     for (const double bad : {nan, infinite, -infinite})

@@ -1,5 +1,5 @@
-// However a program looks at a body, with however many projections: it is cast whole, in its own shape, and of the hand
-// that the window shows.
+// However a program looks at a body, with however many projections: it is cast whole, in its own shape, and
+// of the hand that the window shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,14 +56,15 @@ void expect_the_body(const CameraRun& run, const glm::dmat4& to_model, double to
     const Capture& capture = *run.capture;
     const double sample = capture.info.box.size / n * glm::length(glm::dvec3(to_model[0]));
     long hits[3] = {}, wrong_colours = 0;
-    glm::dvec3 least[3] = {{9, 9, 9}, {9, 9, 9}, {9, 9, 9}}, most[3] = {{-9, -9, -9}, {-9, -9, -9}, {-9, -9, -9}};
+    glm::dvec3 least[3] = {{9, 9, 9}, {9, 9, 9}, {9, 9, 9}},
+               most[3] = {{-9, -9, -9}, {-9, -9, -9}, {-9, -9, -9}};
     for (const ViewImage& image : capture.images)
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const std::size_t at = std::size_t(j) * n + i;
                 if (!image.covered(at)) continue;
-                const glm::dvec3 p(to_model * glm::dvec4(lattice_point(capture.info.box, n, image.view.axis, i, j,
-                                                                       image.depth[at]),
+                const glm::dvec3 p(to_model * glm::dvec4(lattice_point(capture.info.box, n, image.view.axis,
+                                                                       i, j, image.depth[at]),
                                                          1));
                 double nearest = 1e9;
                 bool has_a_colour = false;
@@ -95,10 +96,11 @@ TEST_P(Ways, lead_into_one_eye_space) {
     EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
 }
 INSTANTIATE_TEST_SUITE_P(Cameras, Ways,
-                         testing::Values("one_projection", "planes", "reversed", "own_view", "left_handed", "whole_matrix",
-                                         "clipped_whole", "view_in_projection", "parallel_planes", "parallel_whole",
-                                         "ortho_in_modelview", "frustum_in_modelview", "upside_down_blit",
-                                         "upside_down_quad", "upside_down_unseen"),
+                         testing::Values("one_projection", "planes", "reversed", "own_view", "left_handed",
+                                         "whole_matrix", "clipped_whole", "view_in_projection",
+                                         "parallel_planes", "parallel_whole", "ortho_in_modelview",
+                                         "frustum_in_modelview", "upside_down_blit", "upside_down_quad",
+                                         "upside_down_unseen"),
                          [](const auto& info) { return std::string(info.param); });
 
 // The cube, which comes last, tells the lens.
@@ -111,7 +113,7 @@ TEST(Cameras, of_clip_positions_are_found_with_a_field_of_view) {
         const CameraRun run = cast(way, {{"GLCAST_FOV", "28.072486935852957"}}); // 2 atan 1/4
         expect_the_body(run, glm::inverse(view()), 0.05);
         ASSERT_TRUE(run.capture);
-    EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
+        EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
     }
 }
 
@@ -131,9 +133,10 @@ TEST(Cameras, of_clip_positions_are_guessed_with_a_warning) {
             for (int i = 0; i < n; ++i) {
                 const std::size_t at = std::size_t(j) * n + i;
                 if (!image.covered(at)) continue;
-                const glm::dvec3 p(to_model * glm::dvec4(lattice_point(run.capture->info.box, n, image.view.axis, i, j,
-                                                                       image.depth[at]),
-                                                         1));
+                const glm::dvec3 p(
+                    to_model *
+                    glm::dvec4(
+                        lattice_point(run.capture->info.box, n, image.view.axis, i, j, image.depth[at]), 1));
                 double nearest = 1e9;
                 for (const auto& box : boxes) nearest = std::min(nearest, distance_to_box(p, box[0], box[1]));
                 ASSERT_LT(nearest, 0.05 * run.capture->info.box.size / n);
@@ -156,7 +159,8 @@ TEST(Cameras, that_draw_decals_by_a_nudged_depth_row_show_them) {
     for (const ViewImage& image : run.capture->images)
         for (std::size_t i = 0; i < image.depth.size(); ++i) {
             const bool is_yellow = image.covered(i) && image.colour[i].r > 0.99f && image.colour[i].g > 0.99f;
-            yellow += is_yellow && image.view.axis == Axis::z && image.view.side == Side::minus && image.view.layer == 0;
+            yellow += is_yellow && image.view.axis == Axis::z && image.view.side == Side::minus &&
+                      image.view.layer == 0;
         }
     EXPECT_NEAR(yellow * square, 0.25, 0.03);
 }
