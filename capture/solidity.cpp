@@ -58,7 +58,8 @@ Solidity solidity(const FragmentState& state) {
     const bool over_depth = state.depth_test && state.depth_function == GL_EQUAL;
     if (state.equation == GL_MAX) return through(mean(state.clear));
     if (state.equation == GL_MIN) return through(1 - mean(state.clear));
-    const bool shows_nothing_of_its_own = state.only_tints() || (reads_background(state.source) && state.destination == GL_ZERO);
+    const bool shows_nothing_of_its_own =
+        state.only_tints() || (reads_background(state.source) && state.destination == GL_ZERO);
     if (shows_nothing_of_its_own) return Solidity::never;
     if (over_depth && state.destination == GL_ONE) return Solidity::by_high_alpha;
     return of_destination(state);

@@ -1,9 +1,10 @@
-// Opaque is what blending makes opaque: which fragments of a draw are solid, by how much of what is behind them still
-// shows in the program's own picture.
+// Opaque is what blending makes opaque: which fragments of a draw are solid, by how much of what is behind
+// them still shows in the program's own picture.
 //
-// What is left of the background is the destination's factor. Most factors are constant or depend on the fragment's
-// alpha alone, so that an alpha test tells one fragment from another. Those that depend on its colour, or on the
-// background, are judged by the function as a whole; minimum and maximum over the colour that the program clears to.
+// What is left of the background is the destination's factor. Most factors are constant or depend on the
+// fragment's alpha alone, so that an alpha test tells one fragment from another. Those that depend on its
+// colour, or on the background, are judged by the function as a whole; minimum and maximum over the colour
+// that the program clears to.
 #pragma once
 #include "capture/coincident.h"
 

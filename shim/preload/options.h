@@ -26,7 +26,7 @@ struct Include {
 
 /// When what the program blends is solid.
 enum class Transparent {
-    by_alpha, ///< where its alpha is a half or more
+    by_alpha, ///< where half or less of what is behind shows (capture/solidity.h)
     keep,     ///< always
     skip,     ///< never
 };

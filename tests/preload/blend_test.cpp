@@ -1,5 +1,5 @@
-// Opaque is what blending makes opaque: hulls through which a box is seen are not cast, and boxes that hide what is behind
-// them are, whatever their alpha is (programs/blends.c).
+// Opaque is what blending makes opaque: hulls through which a box is seen are not cast, and boxes that hide
+// what is behind them are, whatever their alpha is (programs/blends.c).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ Seen from_above(const Capture& capture) {
         for (std::size_t i = 0; i < image.depth.size(); ++i) {
             if (!image.covered(i)) continue;
             const glm::vec4& c = image.colour[i];
-            const bool red = c.r > 0.99f && c.b < 0.01f, blue = c.b > 0.99f && c.r < 0.01f;
+            const bool red = c.r > 0.99f && c.b<0.01f, blue = c.b> 0.99f && c.r < 0.01f;
             (red ? seen.red : blue ? seen.blue : seen.other) += square;
         }
     }
@@ -66,9 +66,9 @@ TEST_P(Hulls, that_let_a_box_be_seen_are_not_cast) {
     EXPECT_EQ(seen.layers, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Blends, Hulls,
-                         testing::Values("constant_alpha", "constant_colour", "transparency", "glow", "glow_by_alpha",
-                                         "premultiplied_glass", "tint", "xor", "noop", "greatest_over_light",
-                                         "least_over_dark"),
+                         testing::Values("constant_alpha", "constant_colour", "transparency", "glow",
+                                         "glow_by_alpha", "premultiplied_glass", "tint", "xor", "noop",
+                                         "greatest_over_light", "least_over_dark"),
                          [](const auto& info) { return std::string(info.param); });
 
 class Solids : public testing::TestWithParam<const char*> {};
@@ -83,8 +83,9 @@ TEST_P(Solids, are_cast_whatever_their_alpha_is) {
     EXPECT_EQ(seen.other, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Blends, Solids,
-                         testing::Values("opaque_without_alpha", "opaque_by_low_alpha", "opaque_premultiplied",
-                                         "opaque_by_constant", "copied", "greatest_over_dark", "least_over_light"),
+                         testing::Values("opaque_without_alpha", "opaque_by_low_alpha",
+                                         "opaque_premultiplied", "opaque_by_constant", "copied",
+                                         "greatest_over_dark", "least_over_light"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(Blends, of_which_nothing_is_solid_are_refused_with_the_option_that_keeps_them) {

@@ -172,7 +172,7 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_INCLUDE")
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
     app.add_option("--transparent", o.transparent,
-                   "What is blended: keep or skip all of it (default: keep what is at least half opaque)")
+                   "What is blended: keep or skip all of it (default: keep it where half or less of what is behind shows)")
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
     app.add_option("--fov", o.view_angle,
