@@ -16,7 +16,7 @@
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
@@ -275,7 +275,7 @@ class Cast {
                                       : c.inset  ? ", an inset"
                                                  : "") +
                                      (c.window.empty() ? "" : ", " + c.window);
-            say("group %s", text.c_str());
+            if (speaks_alone()) say("group %s", text.c_str());
             tell("group", text);
         }
         if (!options.list_picture.empty()) {

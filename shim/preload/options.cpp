@@ -11,9 +11,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "capture/key_names.h"
 #include "capture/reference_views.h"
-#include "shim/preload/key_names.h"
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "shim/preload/similarity.h"
 
 namespace glcast::preload {

@@ -78,7 +78,7 @@ void announce(Session& s, const NativeContext& context) {
     Clock::time_point never{};
     s.start.compare_exchange_strong(never, Clock::now()); // before any other thread asks how late it is
     if (s.hooked.exchange(true)) return;
-    say("hooked %s in %s", context.system->name(), program_name().c_str());
+    if (speaks_alone()) say("hooked %s in %s", context.system->name(), program_name().c_str());
     tell("hooked", context.system->name());
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");

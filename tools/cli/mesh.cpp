@@ -12,6 +12,7 @@
 #include "tools/cli/texture.h"
 #include "tools/deviation/level_error.h"
 #include "tools/io/capture_reader.h"
+#include "tools/io/mesh_endings.h"
 #include "tools/io/mesh_io.h"
 #include "tools/reconstruct/reconstruct.h"
 #include "tools/simplify/simplify.h"
@@ -33,7 +34,8 @@ struct Options {
     std::vector<std::string> max_error;
     int texture = 0; ///< texels along an edge; 0: none
     std::string compress = "none";
-    bool split = false, check = false, json = false;
+    bool split = false, check = false, json = false, verbose = false;
+    bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it starts a program
 };
 
 struct Stopwatch {
@@ -69,10 +71,9 @@ bool is_glb(const std::filesystem::path& file) { return file.extension() == ".gl
 bool is_glb(const Options& options) { return is_glb(std::filesystem::path(options.output)); }
 
 void check_output(const Options& options) {
-    static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
     const std::string extension = std::filesystem::path(options.output).extension();
-    if (std::find(std::begin(writable), std::end(writable), extension) == std::end(writable))
-        throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
+    if (!has_mesh_ending(options.output))
+        throw std::runtime_error("cannot write '" + options.output + "': name it " + listed_mesh_endings());
     if (extension != ".glb" && (options.split || options.compress != "none"))
         throw std::runtime_error("--compress and --split are for .glb alone: name the output .glb");
     require_writable(options.output);
@@ -330,6 +331,7 @@ void say_made(const Options& options, const Made& made) {
 
 int make_mesh(const Options& options) {
     check_output(options);
+    if (options.rehearse) return 0;
     Made made;
     make_surface(options, made);
     make_levels(options, made);
@@ -432,7 +434,9 @@ Run declare_mesh(CLI::App& app) {
     app.add_flag("--split", options->split, ".glb: beside it one file a level: OUT.lod0.glb, OUT.lod1.glb, ...");
     app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
+    app.add_flag("--verbose", options->verbose, "say also how, with figures");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
+    app.add_flag("--rehearse", options->rehearse)->group("");
     return [options] { return make_mesh(*options); };
 }
 

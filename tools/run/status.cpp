@@ -14,6 +14,9 @@ namespace glcast::run {
 void take_line(const std::string& line, Seen& seen) {
     using Take = std::function<void(const std::string&, Seen&)>;
     const auto number = [](const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); };
+    const auto capture = [=](const std::string& text) {
+        return Capture{number(text), text.substr(std::min(text.find(' ') + 1, text.size()))};
+    };
     static const std::map<std::string, Take> kinds = {
         {"hooked", [](const std::string& rest, Seen& s) { s.api = rest; }},
         {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
@@ -22,15 +25,11 @@ void take_line(const std::string& line, Seen& seen) {
         {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
         {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
         {"captured",
-         [=](const std::string& rest, Seen& s) {
-             ++s.captures;
-             s.captured_frame = number(rest);
-             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
-         }},
+         [=](const std::string& rest, Seen& s) { s.captures.push_back(capture(rest)); }},
         {"recaptured",
          [=](const std::string& rest, Seen& s) {
-             s.captured_frame = number(rest);
-             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+             if (!s.captures.empty()) s.captures.pop_back();
+             s.captures.push_back(capture(rest));
          }},
         {"looks", [](const std::string&, Seen& s) { s.looking = true; }},
         {"settled", [](const std::string&, Seen& s) { s.looking = false; }},

@@ -6,6 +6,11 @@
 
 namespace glcast::run {
 
+struct Capture {
+    long frame = 0;
+    std::string file;
+};
+
 /// What is known of the program's drawing so far.
 struct Seen {
     std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
@@ -14,9 +19,7 @@ struct Seen {
     std::string seen;    ///< instead of a solid, with what to do
     std::string refused; ///< why a frame could not be recorded, the last one
     long casting = 0;    ///< the frame being cast
-    long captures = 0;
-    long captured_frame = 0;   ///< the last
-    std::string captured_file; ///< its name
+    std::vector<Capture> captures; ///< complete, in the order in which they came
     std::string failed;
     std::vector<std::string> groups;
     bool listed = false;
@@ -25,7 +28,7 @@ struct Seen {
     /// All is there that was asked for, or nothing more will come. `wanted` captures, 0: no limit.
     bool finished(long wanted) const {
         if (looking) return false;
-        return listed || (wanted > 0 && captures >= wanted) || (wanted == 1 && !failed.empty());
+        return listed || (wanted > 0 && static_cast<long>(captures.size()) >= wanted) || (wanted == 1 && !failed.empty());
     }
 };
 
