@@ -133,6 +133,7 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
     std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, layers %d %d %d %s, %d draws, %.2f s)", info.n,
                   info.box.size, report.layer_count[0], report.layer_count[1], report.layer_count[2],
                   layers_name(report.layers), report.draws, seconds.count());
+    tell("figures", text);
     return {CastOutcome::captured, "captured frame " + std::to_string(info.frame) + " of " + info.program +
                                        ": " + path + " " + text};
 }

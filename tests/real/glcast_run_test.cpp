@@ -74,6 +74,26 @@ TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
     EXPECT_TRUE(fs::exists(capture()));
 }
 
+TEST_F(GlcastRun, SaysFiguresWhenAsked) {
+    const auto said = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {"--quit", "-o", capture(), "--", "sleep", nap});
+        const CommandResult result = run(options, "hooked GLX;figures (n=8, 0.1 s);captured 3 " + capture());
+        EXPECT_EQ(result.exit_code, 0);
+        return result.err;
+    };
+    EXPECT_EQ(said({}), "glcast-run: frame 3 of sleep is cast in " + capture() + "; to look at it: glcast view " + capture() +
+                            " -o " + (folder / "a.html").string() + "\n");
+    EXPECT_THAT(said({"--verbose"}), StartsWith("glcast-run: frame 3: (n=8, 0.1 s)\n"));
+}
+
+TEST_F(GlcastRun, SaysWhatFailedBesideWhatDidNot) {
+    const CommandResult result = run({"--captures", "2", "-o", capture(), "--", "true"},
+                                     "hooked GLX;failed no memory;captured 3 " + capture(), "true");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("no memory"));
+    EXPECT_THAT(result.err, HasSubstr("only 1 of 2 captures"));
+}
+
 TEST_F(GlcastRun, NamesTheCaptureAfterTheProgram) {
     const CommandResult result =
         run({"--quit", "--", "/usr/bin/env", "printenv", "GLCAST_OUT"}, "hooked GLX");
@@ -146,11 +166,12 @@ TEST_F(GlcastRun, WritesControlCharactersOut) {
 
 TEST_F(GlcastRun, TellsAScriptInJson) {
     const CommandResult cast = run({"--json", "--quit", "-o", capture(), "--", "sh", "-c", "echo drawn; exec sleep " + nap},
-                                   "hooked GLX;captured 3 " + capture(), "sh");
+                                   "hooked GLX;figures (n=8);captured 3 " + capture(), "sh");
     EXPECT_EQ(cast.exit_code, 0) << cast.err;
     const auto told = nlohmann::json::parse(cast.out);
     EXPECT_EQ(told["program"], "sh");
     EXPECT_EQ(told["captures"][0]["frame"], 3);
+    EXPECT_EQ(told["captures"][0]["figures"], "(n=8)");
     EXPECT_EQ(told["captures"][0]["capture"], capture());
     EXPECT_EQ(cast.err, "drawn\n") << "what the program prints, and nothing of ours";
     const CommandResult listed =

@@ -6,10 +6,17 @@
 
 #include "capture/output_file.h"
 #include "tools/mesh/error_names.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 
-void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", line.c_str()); }
+void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", printable(line).c_str()); }
+
+void require_file(const std::string& file) {
+    std::error_code unknown;
+    if (!std::filesystem::exists(file, unknown) && unknown.value() == 0) throw std::runtime_error("no such file: " + file);
+    if (std::filesystem::is_directory(file, unknown)) throw std::runtime_error(file + " is a folder");
+}
 
 Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
     if (shown) std::fprintf(stderr, "glcast: %s ...", what.c_str());

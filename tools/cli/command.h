@@ -27,7 +27,7 @@ Run declare_view(CLI::App& app);
 /// each closed, each measured. Throws std::runtime_error as it does.
 std::vector<Level> mesh_capture(const std::string& capture);
 
-/// A line to stderr: "glcast: ...".
+/// A line to stderr: "glcast: ...", control characters written out.
 void say(const std::string& line);
 
 /// What is being done, on a terminal only, gone when done.
@@ -44,6 +44,9 @@ class Progress {
 
 /// One object on stdout, nothing else.
 void print_json(const nlohmann::ordered_json& object);
+
+/// Throws when there is no such file: asked before its kind is guessed from what it holds.
+void require_file(const std::string& file);
 
 /// Throws when a file cannot be made at `path`: asked before hours of work, not after.
 void require_writable(const std::filesystem::path& path);

@@ -129,6 +129,7 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
 }
 
 int info(const Options& options) {
+    require_file(options.file);
     if (looks_like_exr(options.file)) {
         const Json json = describe_capture(options);
         options.json ? print_json(json) : print_capture(json);

@@ -332,6 +332,7 @@ void say_made(const Options& options, const Made& made) {
 int make_mesh(const Options& options) {
     check_output(options);
     if (options.rehearse) return 0;
+    require_file(options.capture);
     Made made;
     make_surface(options, made);
     make_levels(options, made);

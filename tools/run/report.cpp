@@ -35,11 +35,27 @@ std::string from_here(const fs::path& file) {
     return file.parent_path() == here ? file.filename().string() : file.string();
 }
 
-Json describe(const Capture& capture) { return {{"frame", capture.frame}, {"capture", capture.file}}; }
+/// A capture that is not kept has no file.
+Json describe(const Capture& capture) {
+    Json json = {{"frame", capture.frame}};
+    if (!capture.file.empty()) json["capture"] = capture.file;
+    if (!capture.figures.empty()) json["figures"] = capture.figures;
+    return json;
+}
+
+void say_figures(const Options& options, const Capture& capture) {
+    if (options.verbose && !options.json && !capture.figures.empty())
+        say("frame " + std::to_string(capture.frame) + ": " + capture.figures);
+}
 
 int too_few(const Options& options, const Seen& seen, const std::string& ending) {
     return fail("only " + std::to_string(seen.captures.size()) + " of " + std::to_string(options.captures) +
                 " captures: " + ending);
+}
+
+/// A frame that could not be captured, beside others that could.
+void say_failure(const Seen& seen) {
+    if (!seen.failed.empty()) say(seen.failed);
 }
 
 bool are_too_few(const Options& options, const Seen& seen) {
@@ -93,6 +109,8 @@ int report_list(const Options& options, const Seen& seen) {
 }
 
 int report_captures(const Options& options, const Seen& seen, const std::string& ending) {
+    for (const Capture& capture : seen.captures) say_figures(options, capture);
+    say_failure(seen);
     if (options.json) {
         Json json = {{"program", program_name(options)}, {"captures", Json::array()}};
         for (const Capture& capture : seen.captures) json["captures"].push_back(describe(capture));
@@ -113,10 +131,11 @@ int report_meshes(const Options& options, const Seen& seen, const MeshStep& mesh
                   const std::string& ending) {
     Json json = {{"program", program_name(options)}, {"captures", Json::array()}};
     int made = 0, status = 0;
+    say_failure(seen);
     for (const MeshStep::Result& result : meshes.results()) {
         made += result.status == 0;
-        Json one = {{"frame", result.capture.frame}};
-        if (options.keep_capture) one["capture"] = result.capture.file;
+        say_figures(options, result.capture);
+        Json one = describe(result.capture);
         if (result.status == 0) one["mesh"] = Json::parse(result.json, nullptr, false);
         json["captures"].push_back(std::move(one));
     }

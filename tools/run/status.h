@@ -9,6 +9,7 @@ namespace glcast::run {
 struct Capture {
     long frame = 0;
     std::string file;
+    std::string figures = {}; ///< how it was made, for --verbose and --json
 };
 
 /// What is known of the program's drawing so far.
@@ -19,6 +20,7 @@ struct Seen {
     std::string seen;    ///< instead of a solid, with what to do
     std::string refused; ///< why a frame could not be recorded, the last one
     long casting = 0;    ///< the frame being cast
+    std::string figures;           ///< of the capture that comes next
     std::vector<Capture> captures; ///< complete, in the order in which they came
     std::string failed;
     std::vector<std::string> groups;
