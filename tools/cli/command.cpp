@@ -1,6 +1,8 @@
 #include "tools/cli/command.h"
 
+#include <cmath>
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -19,11 +21,18 @@ void require_file(const std::string& file) {
 }
 
 Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
-    if (shown) std::fprintf(stderr, "glcast: %s ...", what.c_str());
+    if (shown) std::fprintf(stderr, "glcast: %s ...", printable(what).c_str());
 }
 
 Progress::~Progress() {
     if (shown) std::fputs("\r\033[K", stderr);
+}
+
+std::function<void(const std::string& what)> progress_of_stages() {
+    return [now = std::shared_ptr<Progress>()](const std::string& what) mutable {
+        now.reset(); // clears its line before the next is written
+        if (!what.empty()) now = std::make_shared<Progress>(what);
+    };
 }
 
 void print_json(const nlohmann::ordered_json& object) {
@@ -68,6 +77,13 @@ std::string error_line(const LevelError& error, double sample) {
     return "mean " + length(error.mean) + ", 99.9 % " + length(error.p999) + ", max " + length(error.max) +
            "; normals " + number(error.normal_mean_degrees) + " degrees; colours mean " + number(error.colour_mean) +
            ", 99.9 % " + number(error.colour_p999);
+}
+
+std::string normals_advice(double share) {
+    constexpr double good_part = 0.05;
+    if (!(share >= good_part)) return "";
+    return "the normals that the program drew are more than 60 degrees off the surface on " + number(std::round(100 * share)) +
+           " % of it, so other lights may show it wrongly: --normals geometric takes those of the surface";
 }
 
 std::string summary(const MeshCheck& check) {

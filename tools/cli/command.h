@@ -23,10 +23,6 @@ Run declare_render(CLI::App& app);
 Run declare_refine(CLI::App& app);
 Run declare_view(CLI::App& app);
 
-/// What `glcast mesh` makes of a capture when it is told nothing more: the full surface, then 1/10 and 1/100 of it,
-/// each closed, each measured. Throws std::runtime_error as it does.
-std::vector<Level> mesh_capture(const std::string& capture);
-
 /// A line to stderr: "glcast: ...", control characters written out.
 void say(const std::string& line);
 
@@ -41,6 +37,9 @@ class Progress {
   private:
     bool shown;
 };
+
+/// A Progress for each step of a run that tells of its steps; "" for none.
+std::function<void(const std::string& what)> progress_of_stages();
 
 /// One object on stdout, nothing else.
 void print_json(const nlohmann::ordered_json& object);
@@ -59,6 +58,9 @@ nlohmann::ordered_json to_json(const LevelError& error);
 
 /// The same for people: "mean 0.01 (0.2 samples), 99.9 % ..., max ...; normals 2 degrees; colours mean 0.01, 99.9 % 0.1".
 std::string error_line(const LevelError& error, double sample);
+
+/// Offers --normals geometric where drawn normals are far off a good part of the surface, a twentieth; else empty.
+std::string normals_advice(double disagreeing_normals_share);
 
 /// "1234 triangles, 1851 edges, closed two-manifold"
 std::string summary(const MeshCheck& check);

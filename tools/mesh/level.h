@@ -4,6 +4,7 @@
 
 #include "tools/mesh/mesh.h"
 #include "tools/mesh/texture.h"
+#include "tools/mesh/wedges.h"
 
 namespace glcast {
 
@@ -13,6 +14,7 @@ struct LevelError {
     double normal_mean_degrees = 0;     ///< between the normals as shown (of vertices, or of the texture)
     double colour_mean = 0, colour_p999 = 0; ///< largest difference of a channel, display values, 0..1
     double unsupported_area_share = 0;  ///< of level 0: surface that no ray saw, 0..1
+    double disagreeing_normals_share = 0; ///< of level 0: where drawn normals are kept that are far off the surface, 0..1
 };
 
 /// One level of detail, finest first.
@@ -21,7 +23,8 @@ struct Level {
     std::string name; ///< "level 0", ...
     LevelError error{}; ///< zero for level 0, but for its unsupported area
     double sample = 0; ///< lattice spacing of the capture it was made from, model units; 0 when unknown
-    Texture texture{}; ///< empty: colours and normals of the vertices are all there is
+    Texture texture{}; ///< empty: colours and normals of vertices or wedges are all there is
+    Wedges wedges{};   ///< empty: a normal and a colour a vertex are all there is
 };
 
 } // namespace glcast

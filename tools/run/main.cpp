@@ -1,4 +1,5 @@
 // glcast-run: start a program with the shim preloaded, wait for its cast, and leave nothing behind.
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
@@ -141,6 +142,15 @@ void wait_for_meshes(MeshStep& meshes, Program& program, int signals) {
     }
 }
 
+/// Descriptors 0 to 2 that are closed would become a pipe of ours. A child has them closed again.
+void occupy_standard_descriptors() {
+    for (int descriptor = 0; descriptor <= STDERR_FILENO; ++descriptor) {
+        if (fcntl(descriptor, F_GETFD) < 0) {
+            open("/dev/null", O_RDWR | O_CLOEXEC); // the lowest that is free: this one
+        }
+    }
+}
+
 /// Why a program that was started by another, by a shell script say, may not have the library in it.
 std::string find_obstacle(const Program& program) {
     for (const fs::path& file : program.running()) {
@@ -158,6 +168,7 @@ int report(const Options& options, const Seen& seen, const MeshStep* meshes, con
 }
 
 int run(const Options& options) {
+    occupy_standard_descriptors();
     const fs::path program_file = find_program(options.program[0]), shim = find_shim(), glcast = find_glcast();
     const bool makes_mesh = options.makes_mesh && !options.list;
     if (makes_mesh && glcast.empty()) return fail("cannot find glcast beside glcast-run, which makes the mesh");
@@ -206,6 +217,7 @@ int run(const Options& options) {
     if (meshes && ending == interrupted) meshes->give_up();
     program.end(end_grace_ms);
     pipe.read_into(seen); // a capture that was finished while the program was being ended counts
+    report_unsaid(seen);
     if (meshes) {
         meshes->take(seen);
         if (ending == interrupted) meshes->give_up();

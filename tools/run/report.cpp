@@ -91,6 +91,12 @@ int fail(const std::string& why) {
     return 1;
 }
 
+void report_unsaid(const Seen& seen) {
+    if (seen.unsaid > 0)
+        say(std::to_string(seen.unsaid) + (seen.unsaid == 1 ? " line" : " lines") +
+            " of the library did not go to the program's stderr: " + seen.unsaid_why);
+}
+
 std::string missing_display() {
     const char* display = std::getenv("DISPLAY");
     if (display == nullptr || *display == '\0')

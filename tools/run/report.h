@@ -18,6 +18,9 @@ int report_captures(const Options& options, const Seen& seen, const std::string&
 int report_meshes(const Options& options, const Seen& seen, const MeshStep& meshes,
                   const std::string& ending);
 
+/// What the library could not say itself.
+void report_unsaid(const Seen& seen);
+
 /// Why nothing was seen, where it is for want of an X server: "; DISPLAY is not set: --headless ...". Else
 /// empty.
 std::string missing_display();
