@@ -140,7 +140,7 @@ TEST(Wedges, ACylinderIsSmoothButForItsRims) {
 TEST(Wedges, FlatSidesStayFlat) {
     const double step = 2 * std::numbers::pi / sides;
     const Source source =
-        make_source(cast_body(*cylinder({0, 0, 0}, {0, 0, 1}, radius, height), test_box, n,
+        make_source(cast_body(*cylinder({0, 0, 0}, {0, 0, 1}, radius, height), test_box, 2 * n,
                               [&](const glm::dvec3& at, const glm::dvec3& normal) {
                                   if (std::abs(normal.z) > 0.9) return normal;
                                   const double angle = (std::floor(std::atan2(at.y, at.x) / step) + 0.5) * step;
