@@ -174,7 +174,7 @@ class Cast {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
             siblings.enter(part);
-            scenes.push_back(analyse(*part.frame, gl));
+            scenes.push_back(analyse(*part.frame, gl, options.view_angle));
         }
         candidates = merge(scenes, [&](int a, int b) {
             return record::share_objects(*parts[a].context->shadow, *parts[b].context->shadow);
@@ -302,9 +302,9 @@ class Cast {
         engine.most_layers = options.most_layers;
         engine.layer_method = options.layer_method;
         engine.use_shaders = options.use_shaders;
-        engine.mirrored_projection = is_mirrored(group.projection, group.depth_reversed);
+        engine.mirrored_projection = group.is_mirrored();
         engine.eye_to_capture =
-            choose_eye_to_capture({group.base_modelview, engine.mirrored_projection}, options);
+            choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
@@ -342,6 +342,16 @@ class Cast {
             say_once("solids that the program cuts out of one another as it draws them (OpenCSG) are cast uncut: let it "
                      "cut them before, in OpenSCAD by render() in the script");
         }
+        const Group& group = candidate.group;
+        if (group.guessed_view) {
+            not_understood["draws in clip coordinates, whose field of view nobody tells: 45 degrees guessed"] =
+                group.draws;
+            say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
+                     "--fov DEGREES tells it");
+        }
+        if (group.with_own_w)
+            not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
+                group.with_own_w;
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
         if (window.unanswered > 0)

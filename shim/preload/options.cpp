@@ -100,6 +100,13 @@ bool parse_transparent(const std::string& text, Options& options) {
     return text == "keep" || text == "skip";
 }
 
+bool parse_view_angle(const std::string& text, Options& options) {
+    double degrees = 0;
+    if (!parse_number(text, degrees) || !(degrees > 0 && degrees < 180)) return false;
+    options.view_angle = degrees;
+    return true;
+}
+
 bool parse_mask(const std::string& text, Options& options) {
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find(',', at), text.size());
@@ -156,6 +163,7 @@ constexpr Variable variables[] = {
     {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
     {"GLCAST_INCLUDE", "lines, points or lines,points", parse_include},
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
+    {"GLCAST_FOV", "degrees, more than 0 and less than 180", parse_view_angle},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
     {"GLCAST_REFERENCE_VIEWS", "a whole number from 1 to 36, and no GLCAST_BOX with it",

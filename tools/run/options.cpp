@@ -221,6 +221,10 @@ void declare(CLI::App& app, Options& o) {
                    "What is blended: keep or skip all of it (default: keep what is at least half opaque)")
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
+    app.add_option("--fov", o.view_angle,
+                   "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
+        ->envname("GLCAST_FOV")
+        ->check(CLI::Range(0.001, 179.999));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,
@@ -346,6 +350,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
+        {"GLCAST_FOV", o.view_angle > 0 ? number(o.view_angle) : ""},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
         {"GLCAST_VERBOSE", o.verbose ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},

@@ -31,6 +31,7 @@ struct Options {
     bool list = false;
     std::string list_picture; ///< absolute; implies `list`
     std::string include, transparent;
+    double view_angle = 0; ///< degrees; 0: not told
     double timeout_seconds = 0;       ///< 0: no limit
     bool verbose = false, json = false;
     std::vector<std::string> program; ///< name and arguments
