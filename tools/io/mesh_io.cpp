@@ -43,9 +43,8 @@ bool needs_doubles(const Mesh& mesh) {
     return std::max({far.x, far.y, far.z}) > 16 * glm::length(hi - lo);
 }
 
-void add_fan(Mesh& mesh, std::span<const std::uint32_t> corners) {
-    for (std::size_t k = 2; k < corners.size(); ++k)
-        mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+bool floats_hold(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.positions, [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; });
 }
 
 // IEC 61966-2-1
@@ -56,7 +55,7 @@ float to_display(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::
 
 namespace {
 
-using Reader = std::vector<Level> (*)(std::string_view);
+using Reader = std::vector<Level> (*)(std::string_view, const std::filesystem::path&);
 /// A level to a file of the set, its texture to further ones.
 using Writer = bool (*)(format::FileSet& files, const std::filesystem::path& path, const Level& level);
 
@@ -93,6 +92,45 @@ std::string read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
+constexpr double farthest = 1.844e18; ///< Embree's: beyond it distances cannot be measured
+
+void check_positions(const Mesh& mesh) {
+    for (const glm::dvec3& p : mesh.positions) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            format::refuse("a position is not finite");
+        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > farthest)
+            format::refuse("a position is more than 1.8e18 from the origin: scale the mesh down");
+    }
+}
+
+/// Means of the normals of a vertex's triangles, by area.
+std::vector<glm::dvec3> geometric_normals(const Mesh& mesh) {
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+    for (const Triangle& t : mesh.triangles) {
+        const glm::dvec3& a = mesh.positions[t[0]];
+        const glm::dvec3 area = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        for (const std::uint32_t v : t) sums[v] += area;
+    }
+    return sums;
+}
+
+/// Those without a direction get the surface's.
+void unit_normals(Mesh& mesh) {
+    std::vector<glm::dvec3> geometric;
+    const auto unit = [](const glm::dvec3& n) {
+        const double size = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+        return std::isfinite(size) && size > 0 ? glm::normalize(n / size) : glm::dvec3(0);
+    };
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+        glm::dvec3 n = unit(mesh.normals[v]);
+        if (n == glm::dvec3(0)) {
+            if (geometric.empty()) geometric = geometric_normals(mesh);
+            n = unit(geometric[v]);
+        }
+        mesh.normals[v] = n == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(n);
+    }
+}
+
 /// What must be true of a mesh from anywhere: corners that exist, finite positions, unit normals, colours in
 /// 0..1.
 void tidy(Mesh& mesh) {
@@ -103,15 +141,10 @@ void tidy(Mesh& mesh) {
             if (v >= vertices)
                 format::refuse("a face has corner " + std::to_string(v) + " of " + std::to_string(vertices) +
                                " vertices");
-    for (const glm::dvec3& p : mesh.positions)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            format::refuse("a position is not finite");
+    check_positions(mesh);
     if (mesh.normals.size() != vertices) mesh.normals.clear();
     if (mesh.colours.size() != vertices) mesh.colours.clear();
-    for (glm::vec3& n : mesh.normals) {
-        const float length = glm::length(n);
-        n = std::isfinite(length) && length > 0 ? n / length : glm::vec3(0, 0, 1);
-    }
+    unit_normals(mesh);
     for (glm::vec3& c : mesh.colours)
         for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
 }
@@ -139,7 +172,7 @@ void write_split(format::FileSet& files, const std::filesystem::path& path, std:
 std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
-        std::vector<Level> levels = f.read(read_file(path));
+        std::vector<Level> levels = f.read(read_file(path), path);
         for (Level& level : levels) tidy(level.mesh);
         return levels;
     } catch (const std::exception& e) {
