@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "shim/preload/cast.h"
+#include "shim/preload/meant_program.h"
+#include "shim/preload/own_stack.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
 #include "shim/preload/status.h"
@@ -147,6 +149,11 @@ bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result
 
 const char* plural(long count) { return count == 1 ? "" : "s"; }
 
+bool is_captured_by_a_child() {
+    const char* out = std::getenv("GLCAST_OUT");
+    return out && written_since_start(out);
+}
+
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
 [[gnu::destructor]] void report_at_exit() noexcept {
     const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
@@ -154,7 +161,8 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
     Session* s = session_if_any();
     const std::string program = program_name();
     if (!s || (!s->hooked && !s->settled)) {
-        if (!has_status_file()) say("no GL seen in %s: nothing captured", program.c_str());
+        if (!has_status_file() && is_meant_program() && !is_captured_by_a_child())
+            say("no GL seen in %s: nothing captured", program.c_str());
         return;
     }
     if (!s->is_ours() || s->settled) return;
@@ -218,11 +226,7 @@ class HeldContexts {
     }
 };
 
-} // namespace
-
-void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
-                long number) {
-    if (parts.empty()) return frame_without_cast(s, {});
+void cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
     if (s.casting.exchange(true)) return; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
@@ -237,6 +241,14 @@ void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* c
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
     if (among_windows(s, window.second, result)) return;
     nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+}
+
+} // namespace
+
+void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
+                long number) {
+    if (parts.empty()) return frame_without_cast(s, {});
+    on_own_stack(HeldSignals::handled, [&] { cast_or_pass(s, parts, current, window, number); });
 }
 
 } // namespace glcast::preload

@@ -1,22 +1,31 @@
 #include "tools/cli/command.h"
 
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <unistd.h>
 
 #include "capture/output_file.h"
 #include "tools/mesh/error_names.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 
-void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", line.c_str()); }
+void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", printable(line).c_str()); }
 
 Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
-    if (shown) std::fprintf(stderr, "glcast: %s ...", what.c_str());
+    if (shown) std::fprintf(stderr, "glcast: %s ...", printable(what).c_str());
 }
 
 Progress::~Progress() {
     if (shown) std::fputs("\r\033[K", stderr);
+}
+
+std::function<void(const std::string& what)> progress_of_stages() {
+    return [now = std::shared_ptr<Progress>()](const std::string& what) mutable {
+        now.reset(); // clears its line before the next is written
+        if (!what.empty()) now = std::make_shared<Progress>(what);
+    };
 }
 
 void print_json(const nlohmann::ordered_json& object) {

@@ -104,36 +104,48 @@ void check_positions(const Mesh& mesh) {
 }
 
 /// Means of the normals of a vertex's triangles, by area.
-std::vector<glm::dvec3> geometric_normals(const Mesh& mesh) {
+std::vector<glm::vec3> geometric_normals(const Mesh& mesh) {
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
     for (const Triangle& t : mesh.triangles) {
         const glm::dvec3& a = mesh.positions[t[0]];
         const glm::dvec3 area = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
         for (const std::uint32_t v : t) sums[v] += area;
     }
-    return sums;
+    std::vector<glm::vec3> normals(sums.begin(), sums.end());
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        const double size = glm::length(sums[v]);
+        normals[v] = size > 0 && std::isfinite(size) ? glm::vec3(sums[v] / size) : glm::vec3(0, 0, 1);
+    }
+    return normals;
 }
 
-/// Those without a direction get the surface's.
-void unit_normals(Mesh& mesh) {
-    std::vector<glm::dvec3> geometric;
-    const auto unit = [](const glm::dvec3& n) {
-        const double size = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-        return std::isfinite(size) && size > 0 ? glm::normalize(n / size) : glm::dvec3(0);
+/// Of length 1; false when it has no direction.
+bool to_unit(glm::vec3& n) {
+    const double size = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    if (!(size > 0) || !std::isfinite(glm::dot(n, glm::vec3(1)))) return false;
+    n = glm::vec3(glm::normalize(glm::dvec3(n) / size));
+    return true;
+}
+
+/// Normals without a direction get the surface's.
+void unit_normals(Level& level) {
+    std::vector<glm::vec3> geometric;
+    const auto mend = [&](glm::vec3& n, std::uint32_t vertex) {
+        if (to_unit(n)) return;
+        if (geometric.empty()) geometric = geometric_normals(level.mesh);
+        n = geometric[vertex];
     };
-    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
-        glm::dvec3 n = unit(mesh.normals[v]);
-        if (n == glm::dvec3(0)) {
-            if (geometric.empty()) geometric = geometric_normals(mesh);
-            n = unit(geometric[v]);
-        }
-        mesh.normals[v] = n == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(n);
-    }
+    for (std::size_t v = 0; v < level.mesh.normals.size(); ++v) mend(level.mesh.normals[v], std::uint32_t(v));
+    if (level.wedges.normals.empty()) return;
+    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            mend(level.wedges.normals[level.wedges.corners[t][k]], level.mesh.triangles[t][k]);
 }
 
 /// What must be true of a mesh from anywhere: corners that exist, finite positions, unit normals, colours in
 /// 0..1.
-void tidy(Mesh& mesh) {
+void tidy(Level& level) {
+    Mesh& mesh = level.mesh;
     if (mesh.triangles.empty()) format::refuse("holds no triangles");
     const std::size_t vertices = mesh.positions.size();
     for (const Triangle& t : mesh.triangles)
@@ -144,9 +156,11 @@ void tidy(Mesh& mesh) {
     check_positions(mesh);
     if (mesh.normals.size() != vertices) mesh.normals.clear();
     if (mesh.colours.size() != vertices) mesh.colours.clear();
-    unit_normals(mesh);
-    for (glm::vec3& c : mesh.colours)
-        for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
+    if (!fits(mesh, level.wedges)) level.wedges = {};
+    unit_normals(level);
+    for (auto* colours : {&mesh.colours, &level.wedges.colours})
+        for (glm::vec3& c : *colours)
+            for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
 }
 
 std::filesystem::path numbered(const std::filesystem::path& path, std::size_t level) {
@@ -173,7 +187,7 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
         std::vector<Level> levels = f.read(read_file(path), path);
-        for (Level& level : levels) tidy(level.mesh);
+        for (Level& level : levels) tidy(level);
         return levels;
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());

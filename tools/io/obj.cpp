@@ -1,9 +1,8 @@
 // Wavefront .obj, written: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f; an .mtl
 // where there is a texture.
-
 #include "tools/io/mesh_format.h"
-#include "tools/io/seams.h"
 #include "tools/io/text_cursor.h"
+#include "tools/mesh/corner_split.h"
 
 namespace glcast::format {
 namespace {
@@ -19,41 +18,43 @@ bool write_mtl(FileSet& files, const std::filesystem::path& path, const Texture&
     return out.flush();
 }
 
-void add_vertices(Gather& out, const Mesh& mesh, bool with_colours) {
+/// `vn`: of the vertices or, where corners have their own, of the wedges.
+void add_vertices(Gather& out, const Mesh& mesh, const std::vector<glm::vec3>& normals, bool with_colours) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         out << "v";
         for (int k = 0; k < 3; ++k) out << ' ' << mesh.positions[v][k];
         for (int k = 0; k < 3 && with_colours; ++k) out << ' ' << mesh.colours[v][k];
         out << '\n';
     }
-    for (const glm::vec3& n : mesh.normals)
+    for (const glm::vec3& n : normals)
         out << "vn " << n.x << ' ' << n.y << ' ' << n.z << '\n';
 }
 
 } // namespace
 
-/// Positions stay one a vertex: along a seam only texture coordinates differ.
+/// Positions stay one a vertex: along a seam only texture coordinates differ, at a crease only normals.
 bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level) {
     const Mesh& mesh = level.mesh;
-    const bool textured = !level.texture.empty();
+    const bool textured = !level.texture.empty(), own = !level.wedges.normals.empty();
+    const std::vector<glm::vec3>& normals = own ? level.wedges.normals : mesh.normals;
     Gather out(files.mesh(path));
     out << "# glcast " GLCAST_VERSION "\n";
     if (textured) {
         if (!write_mtl(files, path, level.texture)) return false;
         out << "mtllib " << path.stem().string() << ".mtl\n";
     }
-    add_vertices(out, mesh, !mesh.colours.empty() && !textured);
-    const SeamSplit split = split_along_seams(level);
+    add_vertices(out, mesh, normals, !mesh.colours.empty() && !textured);
+    const CornerSplit split = split_corners(mesh, level.texture, {});
     for (const glm::vec2& at : split.coordinates) out << "vt " << at.x << ' ' << 1 - at.y << '\n';
     if (textured) out << "usemtl as_drawn\n";
-    for (const Triangle& t : split.triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         out << 'f';
-        for (const std::uint32_t corner : t) {
-            const std::size_t v = split.original(mesh, corner) + 1;
-            out << ' ' << v;
-            if (textured || !mesh.normals.empty()) out << '/';
-            if (textured) out << std::size_t(corner) + 1;
-            if (!mesh.normals.empty()) out << '/' << v;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.triangles[t][k], normal = own ? level.wedges.corners[t][k] : v;
+            out << ' ' << std::size_t(v) + 1;
+            if (textured || !normals.empty()) out << '/';
+            if (textured) out << std::size_t(split.triangles[t][k]) + 1;
+            if (!normals.empty()) out << '/' << std::size_t(normal) + 1;
         }
         out << '\n';
     }

@@ -39,7 +39,7 @@ std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path&
         if (std::any_of(materials.begin(), materials.end(), [](const Material& m) { return !m.empty(); }))
             add_material_colours(text, materials, soup);
     }
-    return one_level(mesh_of(std::move(soup)));
+    return {level_of(std::move(soup))};
 }
 
 } // namespace glcast::format

@@ -155,6 +155,9 @@ class Plainer {
 
 } // namespace
 
-ObjText obj_text(std::string_view bytes) { return Plainer(bytes).run(); }
+ObjText obj_text(std::string_view bytes) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3); // byte order mark
+    return Plainer(bytes).run();
+}
 
 } // namespace glcast::format

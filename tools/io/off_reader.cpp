@@ -68,13 +68,14 @@ class Attempt {
         bool by_lines;        ///< a vertex and a face a line, what is over at the end of it is not looked at
         int colour_numbers;   ///< of a vertex
         bool face_colours;    ///< up to four numbers behind a face on its line
+        bool edges = true;    ///< their number stands behind those of vertices and faces
+        bool polygons = true; ///< every face has three corners or more
     };
     Attempt(const OffText& text, const Kind& kind, const How& how) : text(text), kind(kind), how(how) {}
 
     Soup read() {
         const std::size_t vertices = count("the number of vertices"), faces = count("the number of faces");
-        // The number of edges is 0 or wrong as often as not, and missing in some.
-        if (at < text.numbers.size() && (same_line() || !how.by_lines)) ++at;
+        if (how.by_lines ? same_line() : how.edges) ++at; // as often wrong as not
         if (vertices > text.numbers.size() / 3 || faces > text.numbers.size()) refuse("the file is truncated, or its counts are wrong");
         for (std::size_t v = 0; v < vertices; ++v) vertex();
         for (std::size_t f = 0; f < faces; ++f) face(vertices);
@@ -145,6 +146,7 @@ class Attempt {
     void face(std::size_t vertices) {
         const std::size_t corners = count("the number of corners");
         if (corners > text.numbers.size() - at) refuse("the file is truncated");
+        if (corners < 3 && how.polygons) fail("a face has fewer than three corners");
         if (corners >= 3) soup.begin_face();
         for (std::size_t k = 0; k < corners; ++k) {
             const std::size_t v = count("a corner");
@@ -193,11 +195,16 @@ class Attempt {
 
 Soup read_text(TextCursor& cursor, std::string_view rest, const Kind& kind) {
     const OffText text = numbers_of(cursor, rest);
+    std::vector<Attempt::How> ways; // as Geomview has it first
+    for (const bool polygons : {true, false}) {
+        for (const bool edges : {true, false})
+            for (const bool face_colours : {true, false})
+                for (int numbers = 4; numbers >= (kind.colours ? 3 : 4); --numbers)
+                    ways.push_back({false, numbers, face_colours, edges, polygons});
+        ways.push_back({true, 3, true, true, polygons});
+    }
     std::string why;
-    using How = Attempt::How;
-    // As Geomview has it first.
-    for (const How& how : {How{false, 4, true}, How{false, 3, true}, How{false, 4, false}, How{false, 3, false}, How{true, 3, true}}) {
-        if (!kind.colours && how.colour_numbers == 3 && !how.by_lines) continue;
+    for (const Attempt::How& how : ways) {
         try {
             return Attempt(text, kind, how).read();
         } catch (const std::runtime_error& e) {
@@ -283,8 +290,8 @@ std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path&
     std::optional<Kind> kind = kind_of(word);
     if (!kind && TextCursor::parse(word, number)) kind.emplace(), rest = line; // the keyword may be missing
     if (!kind) refuse("is no OFF file");
-    if (TextCursor::trimmed(rest).starts_with("BINARY")) return one_level(mesh_of(read_binary(cursor.remaining(), *kind)));
-    return one_level(mesh_of(read_text(cursor, rest, *kind)));
+    if (TextCursor::trimmed(rest).starts_with("BINARY")) return {level_of(read_binary(cursor.remaining(), *kind))};
+    return {level_of(read_text(cursor, rest, *kind))};
 }
 
 } // namespace glcast::format

@@ -37,6 +37,9 @@ struct Header {
 /// Leaves the cursor at the body. Throws std::runtime_error.
 Header read_header(TextCursor& cursor);
 
+/// Lists of a face with three numbers a corner: the second as MeshLab has it, the first ours in the same manner.
+inline constexpr std::string_view wedge_normals = "normal", wedge_colours = "color";
+
 /// Where a property of a vertex or face goes.
 enum Slot { x, y, z, nx, ny, nz, red, green, blue, place_u, place_v, slots, none = slots };
 Slot slot_of(std::string_view name);

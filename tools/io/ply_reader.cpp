@@ -55,7 +55,9 @@ class Values {
     void skip(const Property& property) {
         for (std::size_t count = length(property); count > 0; --count) next(property.type);
     }
+    /// Past so many bytes, or words of a text.
     void jump(std::size_t bytes) {
+        for (; encoding == Encoding::ascii && bytes > 0; --bytes) next_word();
         if (bytes > rest.size()) refuse("the file is truncated");
         rest.remove_prefix(bytes);
     }
@@ -157,22 +159,36 @@ class PlyReader {
     void faces(const Element& element, bool strips) {
         const Layout layout(element);
         face_whole = layout.whole_colours;
-        std::vector<double> corners, texcoord;
+        std::vector<double> corners, texcoord, normal, colour;
         for (std::size_t f = 0; f < element.count; ++f) {
             double slot[slots + 1] = {};
-            corners.clear(), texcoord.clear();
+            corners.clear(), texcoord.clear(), normal.clear(), colour.clear();
             for (std::size_t k = 0; k < layout.of.size(); ++k) {
                 const Property& p = element.properties[k];
-                if (of_corners(p) || p.name == "texcoord") {
-                    std::vector<double>& list = of_corners(p) ? corners : texcoord;
-                    for (std::size_t count = values.length(p); count > 0; --count) list.push_back(values.next(p.type));
+                std::vector<double>* const list = of_corners(p)                           ? &corners
+                                                  : !p.list                               ? nullptr
+                                                  : p.name == "texcoord"                  ? &texcoord
+                                                  : p.name == wedge_normals               ? &normal
+                                                  : p.name == wedge_colours               ? &colour
+                                                                                          : nullptr;
+                if (list) {
+                    if (list == &colour) corner_whole = is_whole(p.type);
+                    for (std::size_t count = values.length(p); count > 0; --count) list->push_back(values.next(p.type));
                 } else if (layout.of[k] == none)
                     values.skip(p);
                 else
                     slot[layout.of[k]] = values.next(p.type);
             }
             const std::size_t before = soup.sizes.size();
-            strips ? strip(corners) : face(corners, texcoord);
+            if (strips)
+                strip(corners);
+            else {
+                face(corners, texcoord);
+                if (soup.sizes.size() > before) {
+                    add_corners(soup.corner_normals, normal, corners.size());
+                    add_corners(soup.corner_colours, colour, corners.size());
+                }
+            }
             if (layout.colours()) soup.face_colours.resize(before, glm::vec3(1)), soup.face_colours.resize(soup.sizes.size(), layout.colour(slot));
         }
     }
@@ -192,6 +208,12 @@ class PlyReader {
         }
     }
 
+    /// Three numbers a corner. A list that some face lacks is given up.
+    void add_corners(std::vector<glm::vec3>& list, const std::vector<double>& numbers, std::size_t corners) {
+        if (numbers.size() != 3 * corners || list.size() != soup.corners.size() - corners) return;
+        for (std::size_t k = 0; k < numbers.size(); k += 3) list.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+    }
+
     /// Every second triangle turns the other way; -1 begins anew.
     void strip(const std::vector<double>& corners) {
         std::size_t from = 0;
@@ -207,6 +229,9 @@ class PlyReader {
         scale_colours(soup.colours, vertex_whole);
         if (!soup.face_colours.empty()) soup.face_colours.resize(soup.sizes.size(), glm::vec3(1));
         scale_colours(soup.face_colours, face_whole);
+        scale_colours(soup.corner_colours, corner_whole);
+        for (std::vector<glm::vec3>* list : {&soup.corner_normals, &soup.corner_colours})
+            if (list->size() != soup.corners.size()) list->clear();
         for (std::size_t at = 0; at < soup.corners.size() && !places.empty(); ++at)
             if (soup.corners[at] < places.size() && !std::isfinite(soup.corner_places[at].x))
                 soup.corner_places[at] = places[soup.corners[at]];
@@ -217,21 +242,22 @@ class PlyReader {
     Values values;
     Soup soup;
     std::vector<glm::vec2> places; ///< of vertices
-    bool vertex_whole = false, face_whole = false;
+    bool vertex_whole = false, face_whole = false, corner_whole = false;
 };
 
-/// Of a binary body that OpenMesh reads: it believes all counts.
+/// OpenMesh believes all counts.
 void check_lengths(const Header& header, std::string_view body) {
-    if (header.encoding == Encoding::ascii) return;
     const Element &vertex = header.elements[0], &face = header.elements[1];
-    std::size_t stride = 0, rest = 0;
-    for (const Property& p : vertex.properties) stride += size_of(p.type);
-    for (const Property& p : face.properties) rest += p.list ? 0 : size_of(p.type);
+    const bool text = header.encoding == Encoding::ascii;
+    std::size_t stride = 0, rest = 0; // bytes, or words of a text
+    for (const Property& p : vertex.properties) stride += text ? 1 : size_of(p.type);
+    for (const Property& p : face.properties) rest += p.list ? 0 : text ? 1 : size_of(p.type);
     if (vertex.count > body.size() / std::max<std::size_t>(stride, 1)) refuse("the file is truncated");
     const Property& corners = face.properties[0];
-    Values values(body.substr(stride * vertex.count), header.encoding);
+    Values values(body, header.encoding);
+    values.jump(stride * vertex.count);
     for (std::size_t f = 0; f < face.count; ++f)
-        values.jump(values.length(corners) * size_of(corners.type) + rest);
+        values.jump(values.length(corners) * (text ? 1 : size_of(corners.type)) + rest);
 }
 
 Soup by_openmesh(const Header& header, std::string_view bytes, std::string_view body) {
@@ -244,7 +270,7 @@ Soup by_openmesh(const Header& header, std::string_view bytes, std::string_view 
 
 /// The colours of a picture, where there are no others.
 void show_picture(const Header& header, const std::filesystem::path& path, Soup& soup) {
-    if (header.picture.empty() || !soup.colours.empty() || !soup.face_colours.empty()) return;
+    if (header.picture.empty() || !soup.colours.empty() || !soup.face_colours.empty() || !soup.corner_colours.empty()) return;
     const Material shown = picture_material(path, header.picture);
     if (shown.empty() || soup.corner_places.empty()) return;
     for (const glm::vec2& place : soup.corner_places) soup.corner_colours.push_back(shown.at(place));
@@ -262,7 +288,7 @@ std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path&
     const bool others = openmesh_reads(header) && (header.encoding != Encoding::ascii || floats_hold(body));
     Soup soup = others ? by_openmesh(header, bytes, body) : PlyReader(header, body).read();
     show_picture(header, path, soup);
-    return one_level(mesh_of(std::move(soup)));
+    return {level_of(std::move(soup))};
 }
 
 } // namespace glcast::format

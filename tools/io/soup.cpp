@@ -33,44 +33,38 @@ void check(const Soup& soup) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a position is not finite");
 }
 
-/// What comes corner by corner, as means or sums of vertices. Vertices without a corner get `none`.
-class OfCorners {
+/// What corners of triangles get, out of lists of faces and corners.
+class Corners {
   public:
-    OfCorners(std::size_t vertices, glm::vec3 none) : sums(vertices, glm::dvec3(0)), counts(vertices, 0), none(none) {}
-    void add(std::uint32_t vertex, const glm::vec3& value) {
-        if (std::isfinite(value.x + value.y + value.z)) sums[vertex] += glm::dvec3(value), ++counts[vertex];
+    explicit Corners(const Soup& soup) : soup(soup), colours_of_faces(soup.colours.empty() && !soup.face_colours.empty()) {
+        for (const glm::vec3& n : soup.corner_normals) any_normal = any_normal || std::isfinite(n.x + n.y + n.z);
     }
-    std::vector<glm::vec3> means() const {
-        std::vector<glm::vec3> all(sums.size(), none);
-        for (std::size_t v = 0; v < sums.size(); ++v)
-            if (counts[v] > 0) all[v] = glm::vec3(sums[v] / double(counts[v]));
-        return all;
+
+    /// The triangle of corners `picked` of face `face`, whose first is number `first` of all.
+    void add(std::size_t face, std::size_t first, const std::array<std::uint32_t, 3>& picked) {
+        const auto of = [&](const std::vector<glm::vec3>& list) {
+            return std::array{list[first + picked[0]], list[first + picked[1]], list[first + picked[2]]};
+        };
+        if (any_normal) normals.push_back(of(soup.corner_normals));
+        if (!soup.corner_colours.empty())
+            colours.push_back(of(soup.corner_colours));
+        else if (colours_of_faces)
+            colours.push_back({soup.face_colours[face], soup.face_colours[face], soup.face_colours[face]});
     }
-    bool any() const {
-        return std::any_of(counts.begin(), counts.end(), [](std::uint32_t count) { return count > 0; });
+
+    Wedges wedges(Mesh& mesh) {
+        if (normals.empty() && colours.empty()) return {};
+        for (auto& corners : normals) // so that one without is like another
+            for (glm::vec3& n : corners)
+                if (!std::isfinite(n.x + n.y + n.z)) n = glm::vec3(0);
+        return take_corner_values(mesh, normals, colours);
     }
 
   private:
-    std::vector<glm::dvec3> sums;
-    std::vector<std::uint32_t> counts;
-    glm::vec3 none;
+    const Soup& soup;
+    bool colours_of_faces, any_normal = false;
+    CornerValues normals, colours;
 };
-
-void attributes_of_corners(const Soup& soup, Mesh& mesh) {
-    const std::size_t vertices = soup.positions.size();
-    OfCorners normals(vertices, glm::vec3(0)), colours(vertices, glm::vec3(1));
-    std::size_t at = 0;
-    for (std::size_t f = 0; f < soup.sizes.size(); ++f)
-        for (std::uint32_t k = 0; k < soup.sizes[f]; ++k, ++at) {
-            if (!soup.corner_normals.empty()) normals.add(soup.corners[at], soup.corner_normals[at]);
-            if (!soup.corner_colours.empty())
-                colours.add(soup.corners[at], soup.corner_colours[at]);
-            else if (!soup.face_colours.empty() && mesh.colours.empty())
-                colours.add(soup.corners[at], soup.face_colours[f]);
-        }
-    if (normals.any()) mesh.normals = normals.means();
-    if (colours.any()) mesh.colours = colours.means();
-}
 
 template <class T> void put(std::string& out, const std::vector<T>& list) {
     const std::uint64_t count = list.size();
@@ -91,24 +85,29 @@ template <class T> void take(std::string_view& bytes, std::vector<T>& list) {
 
 } // namespace
 
-Mesh mesh_of(Soup&& soup) {
+Level level_of(Soup&& soup) {
     check(soup);
-    Mesh mesh;
+    Level level;
+    level.name = "level 0";
+    Mesh& mesh = level.mesh;
     mesh.normals = std::move(soup.normals);
-    mesh.colours = std::move(soup.colours);
-    attributes_of_corners(soup, mesh);
+    Corners by_corner(soup);
     const std::span<const std::uint32_t> corners = soup.corners;
     std::vector<std::array<std::uint32_t, 3>> picked;
-    std::size_t at = 0;
-    for (const std::uint32_t size : soup.sizes) {
+    std::size_t first = 0;
+    for (std::size_t f = 0; f < soup.sizes.size(); first += soup.sizes[f], ++f) {
         picked.clear();
-        const auto polygon = corners.subspan(at, size);
+        const auto polygon = corners.subspan(first, soup.sizes[f]);
         cut_polygon(soup.positions, polygon, picked);
-        for (const auto& t : picked) mesh.triangles.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
-        at += size;
+        for (const auto& t : picked) {
+            mesh.triangles.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
+            by_corner.add(f, first, t);
+        }
     }
     mesh.positions = std::move(soup.positions);
-    return mesh;
+    mesh.colours = std::move(soup.colours);
+    level.wedges = by_corner.wedges(mesh);
+    return level;
 }
 
 void scale_colours(std::vector<glm::vec3>& colours, bool whole) {

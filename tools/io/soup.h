@@ -28,9 +28,9 @@ struct Soup {
     void corner(std::uint32_t vertex) { corners.push_back(vertex), ++sizes.back(); }
 };
 
-/// The mesh, its polygons cut into triangles. What belongs to faces and corners goes to vertices: normals are summed,
-/// colours averaged. Throws std::runtime_error on corners that are not there and lists of the wrong length.
-Mesh mesh_of(Soup&& soup);
+/// The mesh, its polygons cut into triangles; what belongs to faces and corners becomes wedges. Throws
+/// std::runtime_error on corners that are not there and lists of the wrong length.
+Level level_of(Soup&& soup);
 
 /// Colours of 0..255 or 0..65535 to 0..1. `whole`: they are written as whole numbers, so that 1 is nearly black; other
 /// colours are taken to be of 0..1 unless one is larger.

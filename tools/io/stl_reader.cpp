@@ -67,7 +67,7 @@ std::vector<glm::vec3> facet_colours(std::string_view bytes) {
     return any ? colours : std::vector<glm::vec3>();
 }
 
-Mesh read_binary(std::string_view bytes) {
+Level read_binary(std::string_view bytes) {
     const std::size_t count = binary_count(bytes);
     for (std::size_t n = 0; n < count; ++n) {
         const Facet facet = facet_at(bytes, n);
@@ -78,7 +78,7 @@ Mesh read_binary(std::string_view bytes) {
     Soup soup = read_with_openmesh(bytes.substr(0, binary_head + count * binary_facet), OpenMeshKind::stl_binary);
     std::vector<glm::vec3> colours = facet_colours(bytes);
     if (colours.size() == soup.sizes.size()) soup.face_colours = std::move(colours);
-    return mesh_of(std::move(soup));
+    return level_of(std::move(soup));
 }
 
 std::string small(std::string_view word) {
@@ -164,14 +164,14 @@ Mesh join_doubles(const std::vector<glm::dvec3>& corners) {
     return mesh;
 }
 
-Mesh read_text(std::string_view bytes) {
+Level read_text(std::string_view bytes) {
     const std::vector<glm::dvec3> corners = text_corners(bytes);
     for (const glm::dvec3& p : corners)
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a position is not finite");
     Mesh bounds;
     bounds.positions = corners;
-    if (needs_doubles(bounds)) return join_doubles(corners);
-    return mesh_of(read_with_openmesh(plain_text(corners), OpenMeshKind::stl_text));
+    if (needs_doubles(bounds)) return {join_doubles(corners), "level 0"};
+    return level_of(read_with_openmesh(plain_text(corners), OpenMeshKind::stl_text));
 }
 
 /// Binary files may begin with "solid" too.
@@ -191,10 +191,10 @@ std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path&
     const std::size_t facets = bytes.size() < binary_head ? 0 : (bytes.size() - binary_head) / binary_facet;
     const bool fits = bytes.size() >= binary_head && binary_count(bytes) <= facets;
     if (fits && bytes.size() == binary_head + std::size_t(binary_count(bytes)) * binary_facet)
-        return one_level(read_binary(bytes));
-    if (is_text(bytes)) return one_level(read_text(bytes));
+        return {read_binary(bytes)};
+    if (is_text(bytes)) return {read_text(bytes)};
     if (!fits || binary_count(bytes) == 0) refuse("is no STL file, or truncated");
-    return one_level(read_binary(bytes)); // some programs append to it
+    return {read_binary(bytes)}; // some programs append to it
 }
 
 } // namespace glcast::format

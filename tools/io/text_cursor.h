@@ -12,13 +12,15 @@ namespace glcast::format {
 
 class TextCursor {
   public:
-    explicit TextCursor(std::string_view text) : rest(text) {}
+    explicit TextCursor(std::string_view text) : rest(text) {
+        if (text.find('\n') == text.npos) line_end = '\r'; // as old Macs had it
+    }
 
     /// The next line less its end, comments from `comment` on and spaces around it; false at the end of the
     /// text.
     bool next_line(std::string_view& line, char comment = '#') {
         if (rest.empty()) return false;
-        const std::size_t end = rest.find('\n');
+        const std::size_t end = rest.find(line_end);
         line = rest.substr(0, end);
         rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
         ++number;
@@ -87,6 +89,7 @@ class TextCursor {
   private:
     static constexpr const char* spaces = " \t\r\f\v";
     std::string_view rest;
+    char line_end = '\n';
     std::size_t number = 0;
 };
 
