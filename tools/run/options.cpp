@@ -350,7 +350,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
-        {"GLCAST_FOV", o.view_angle > 0 ? number(o.view_angle) : ""},
+        {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
         {"GLCAST_VERBOSE", o.verbose ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},
