@@ -28,6 +28,7 @@ struct Options {
     std::string name, capture, full, levels, textured, original, json, pictures;
     std::vector<std::size_t> targets{10'000, 2'000, 500};
     int samples = 4; ///< a pixel, along an axis
+    bool peers = true;
 };
 
 struct Context {
@@ -169,9 +170,9 @@ void run(const Options& options) {
     if (!options.textured.empty()) add_levels(context, options.textured, "textured");
     if (context.known) {
         measured(context, "original", 0, Level{context.truth, ""}, "own mesh");
-        add_peers(context, Level{context.truth, ""}, "own mesh");
+        if (options.peers) add_peers(context, Level{context.truth, ""}, "own mesh");
     }
-    add_peers(context, split_at_creases(full), "cast");
+    if (options.peers) add_peers(context, split_at_creases(full), "cast");
     std::ofstream(options.json) << context.rows.dump(1) << '\n';
 }
 
@@ -191,6 +192,7 @@ int main(int count, char** arguments) {
     app.add_option("--pictures", options.pictures, "folder for pictures of the levels");
     app.add_option("--samples", options.samples, "samples a pixel, along an axis")->check(CLI::Range(1, 16));
     app.add_option("--targets", options.targets)->delimiter(',');
+    app.add_flag("!--no-peers", options.peers, "our own levels alone");
     CLI11_PARSE(app, count, arguments);
     try {
         glcast::pictures::run(options);

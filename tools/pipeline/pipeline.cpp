@@ -146,12 +146,22 @@ void Run::make_levels() {
     made.seconds.simplify = watch.seconds();
 }
 
-/// Textures hide what lies inside outlines. Not levels that a progressive mesh or a measured limit binds.
+/// Outlines are most of what differs where textures hide the rest; elsewhere only levels that come to lie no farther
+/// from the surface keep it. Not levels of a progressive mesh, nor textured ones that a limit binds.
 void Run::lay_outlines() {
-    if (!options.texture || !options.progressive.empty() || !options.max_error.empty()) return;
+    if (!options.progressive.empty() || made.levels.size() < 2) return;
     const Stopwatch watch;
+    const bool freely = options.texture && options.max_error.empty();
+    std::optional<LevelMeter> meter;
     for (std::size_t k = 1; k < made.levels.size(); ++k) {
-        fit_outlines(made.levels[k].mesh, captured);
+        Level laid = made.levels[k];
+        if (!fit_outlines(laid.mesh, captured)) continue;
+        if (!freely) {
+            if (!meter) meter.emplace(made.levels[0]);
+            const LevelError before = meter->measure(made.levels[k]), after = meter->measure(laid);
+            if (after.p999 > before.p999 || after.max > before.max) continue;
+        }
+        made.levels[k].mesh = std::move(laid.mesh);
         made.checks[k] = check_mesh(made.levels[k].mesh, options.check);
     }
     made.seconds.simplify += watch.seconds();
