@@ -14,7 +14,8 @@ add_library(glcast_engine STATIC
     forced_calls.cpp
     forced_caps.cpp
     forced_state.cpp
-    forced_table.cpp)
+    forced_table.cpp
+    solidity.cpp)
 target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_view glcast_options)
 
 # Box, views and images: what the engine makes and the reconstruction takes.

@@ -218,7 +218,10 @@ class Cast {
     }
 
     DrawFunction drawing(const Candidate& candidate, Wanted wanted) const {
-        wanted.transparent = options.transparent;
+        return drawing(candidate, wanted, options.transparent);
+    }
+    DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
+        wanted.transparent = transparent;
         return [this, &candidate, wanted](const GlTable& table) {
             for (std::size_t part = 0; part < parts.size(); ++part)
                 if (candidate.in_part[part] >= 0)
@@ -308,9 +311,19 @@ class Cast {
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
-        if (!engine.box) return nothing_solid();
+        if (!engine.box) {
+            CastResult nothing = nothing_solid();
+            if (shows_when_kept(candidate, engine)) nothing.held.see_through = nothing.held.solid;
+            return nothing;
+        }
         tell("casting", std::to_string(number));
         return write(candidate, engine);
+    }
+
+    /// It is all see-through, or what is solid of it is nothing.
+    bool shows_when_kept(const Candidate& candidate, const EngineOptions& engine) {
+        if (options.transparent != Transparent::by_alpha) return false;
+        return find_scene_box(gl, drawing(candidate, {}, Transparent::keep), candidate.group, engine).has_value();
     }
 
     /// What is cast, through a capture frame.
@@ -349,6 +362,9 @@ class Cast {
             say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
                      "--fov DEGREES tells it");
         }
+        if (group.judged_by_function && options.transparent == Transparent::by_alpha)
+            not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =
+                group.judged_by_function;
         if (group.with_own_w)
             not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
                 group.with_own_w;

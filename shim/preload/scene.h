@@ -41,6 +41,7 @@ struct Group {
     bool depth_reversed = false; ///< the greater depth is in front
     bool turned_round = false;   ///< mirrored on its way to the window (way_to_window.h)
     bool guessed_view = false;   ///< the program hands over clip coordinates, and nobody tells its field of view
+    long judged_by_function = 0; ///< draws of faces that blend by their colours alone (capture/solidity.h)
     long with_own_w = 0;         ///< draws of vertices with a w of their own that could not be understood
     bool erased = false;         ///< a clear of the whole viewport came after: nothing of it is seen
     long draws = 0;              ///< of any primitive

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "capture/solidity.h"
 #include "shim/preload/feedback_probe.h"
 #include "shim/preload/scene.h"
 #include "shim/preload/scene_table.h"
@@ -142,6 +143,7 @@ class Analysis final : public DrawGate {
             group.base_is_stencilled = draw.stencilled;
         }
         pushed.reset();
+        group.judged_by_function += has_faces(mode) && blends_by_colour();
         if (has_faces(mode) && tests) {
             group.at_equal_depth += function == GL_EQUAL;
             const bool greater = function == GL_GREATER || function == GL_GEQUAL;
@@ -191,6 +193,13 @@ class Analysis final : public DrawGate {
 
   private:
     using ClipDraws = std::map<std::size_t, DepthLineFit>; ///< by draw
+
+    bool blends_by_colour() const {
+        if (!inner.IsEnabled(GL_BLEND) || inner.IsEnabled(GL_COLOR_LOGIC_OP)) return false;
+        const bool has_equations = inner.BlendEquation != nullptr;
+        return is_judged_by_function(static_cast<GLenum>(get_int(inner, GL_BLEND_DST)),
+                                     has_equations ? static_cast<GLenum>(get_int(inner, GL_BLEND_EQUATION)) : GL_FUNC_ADD);
+    }
 
     bool writes_colour() const {
         GLboolean mask[4] = {};
