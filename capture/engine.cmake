@@ -18,6 +18,6 @@ add_library(glcast_engine STATIC
 target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_view glcast_options)
 
 # Box, views and images: what the engine makes and the reconstruction takes.
-add_library(glcast_view STATIC reference_views.cpp view.cpp)
+add_library(glcast_view STATIC camera.cpp reference_views.cpp view.cpp)
 target_link_libraries(glcast_view PUBLIC $<BUILD_INTERFACE:glcast_options>)
 glcast_package(glcast_view HEADERS view.h view_image.h)

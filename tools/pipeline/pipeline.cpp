@@ -8,6 +8,7 @@
 
 #include "capture/output_file.h"
 #include "tools/deviation/level_error.h"
+#include "tools/io/mesh_endings.h"
 #include "tools/io/capture_reader.h"
 #include "tools/pipeline/progressive_output.h"
 #include "tools/pipeline/textures.h"
@@ -180,6 +181,8 @@ void Run::bake_textures() {
 void Run::measure() {
     const Stopwatch watch;
     made.levels[0].error.unsupported_area_share = made.surface.unsupported_area_share;
+    if (!options.surface.geometric_normals)
+        made.levels[0].error.disagreeing_normals_share = made.surface.disagreeing_normals_share;
     std::optional<Level> exact;
     if (options.compression != Compression::none) {
         exact = made.levels[0];
@@ -229,9 +232,8 @@ void Run::measure_and_write(const std::filesystem::path& output) {
 } // namespace
 
 void check_output(const std::filesystem::path& output, const PipelineOptions& options) {
-    static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
-    if (std::find(std::begin(writable), std::end(writable), output.extension()) == std::end(writable))
-        throw std::runtime_error("cannot write '" + output.string() + "': name it .glb, .obj, .ply or .off");
+    if (!has_mesh_ending(output))
+        throw std::runtime_error("cannot write '" + output.string() + "': name it " + listed_mesh_endings());
     if (!is_glb(output) && (options.split || options.compression != Compression::none))
         throw std::runtime_error("--compress and --split are for .glb alone: name the output .glb");
     if (const std::string why = why_not_writable(output.string()); !why.empty())
