@@ -119,6 +119,20 @@ bool openmesh_reads(const Header& header) {
            plain_face(header.elements[1]) && header.elements[0].count < INT32_MAX && header.elements[1].count < INT32_MAX;
 }
 
+std::string plain_header(const Header& header) {
+    constexpr const char* encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    const auto name = [](Type type) { return std::string(std::ranges::find(types, type, &TypeName::type)->name) + " "; };
+    std::string text = std::string("ply\nformat ") + encodings[static_cast<int>(header.encoding)] + " 1.0\n";
+    for (const Element& element : header.elements) {
+        text += "element " + element.name + " " + std::to_string(element.count) + "\n";
+        for (const Property& p : element.properties) {
+            text += p.list ? "property list " + name(*p.list) : "property ";
+            text += name(p.type) + (p.list || slot_of(p.name) != none ? p.name : "other") + "\n";
+        }
+    }
+    return text + "end_header\n";
+}
+
 bool floats_hold(std::string_view body) {
     constexpr int digits_of_float = 8;
     int digits = 0; // of the word so far, leading zeros left out

@@ -48,6 +48,9 @@ Slot slot_of(std::string_view name);
 /// that are floats to 8 bits, knows no strips, and reads nothing behind the faces.
 bool openmesh_reads(const Header& header);
 
+/// The header again, without what readers may take for something else: OpenMesh looks for its end for ever.
+std::string plain_header(const Header& header);
+
 /// Do floats hold all numbers of a text, and are they numbers all?
 bool floats_hold(std::string_view body);
 

@@ -260,9 +260,9 @@ void check_lengths(const Header& header, std::string_view body) {
         values.jump(values.length(corners) * (text ? 1 : size_of(corners.type)) + rest);
 }
 
-Soup by_openmesh(const Header& header, std::string_view bytes, std::string_view body) {
+Soup by_openmesh(const Header& header, std::string_view body) {
     check_lengths(header, body);
-    Soup soup = read_with_openmesh(bytes, OpenMeshKind::ply);
+    Soup soup = read_with_openmesh(plain_header(header).append(body), OpenMeshKind::ply);
     if (soup.positions.size() != header.elements[0].count || soup.sizes.size() != header.elements[1].count)
         refuse("the file is truncated, or its counts are wrong");
     return soup;
@@ -286,7 +286,7 @@ std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path&
     for (const Element& element : header.elements) least += std::min(element.count, bytes.size() + 1);
     if (least > bytes.size()) refuse("the file is truncated, or its counts are wrong");
     const bool others = openmesh_reads(header) && (header.encoding != Encoding::ascii || floats_hold(body));
-    Soup soup = others ? by_openmesh(header, bytes, body) : PlyReader(header, body).read();
+    Soup soup = others ? by_openmesh(header, body) : PlyReader(header, body).read();
     show_picture(header, path, soup);
     return {level_of(std::move(soup))};
 }
