@@ -16,7 +16,7 @@
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
@@ -133,6 +133,7 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
     std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, layers %d %d %d %s, %d draws, %.2f s)", info.n,
                   info.box.size, report.layer_count[0], report.layer_count[1], report.layer_count[2],
                   layers_name(report.layers), report.draws, seconds.count());
+    tell("figures", text);
     return {CastOutcome::captured, "captured frame " + std::to_string(info.frame) + " of " + info.program +
                                        ": " + path + " " + text};
 }
@@ -278,7 +279,7 @@ class Cast {
                                       : c.inset  ? ", an inset"
                                                  : "") +
                                      (c.window.empty() ? "" : ", " + c.window);
-            say("group %s", text.c_str());
+            if (speaks_alone()) say("group %s", text.c_str());
             tell("group", text);
         }
         if (!options.list_picture.empty()) {

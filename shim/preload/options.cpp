@@ -11,9 +11,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "capture/key_names.h"
 #include "capture/reference_views.h"
-#include "shim/preload/key_names.h"
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "shim/preload/similarity.h"
 
 namespace glcast::preload {
@@ -224,6 +224,8 @@ Options read_options() {
     options.out = out ? out : "";
     const std::string& file = options.list ? options.list_picture : options.out;
     if (!file.empty()) options.error = check_output(file);
+    if (!options.list && !file.empty() && options.error.empty() && !file.ends_with(".exr"))
+        options.error = "cannot write " + file + ": a capture is named .exr; glcast-run -o makes meshes";
     options.armed = options.error.empty() && (options.list || !options.out.empty());
     return options;
 }

@@ -218,7 +218,7 @@ std::vector<int> further_levels(const Model& model, const std::vector<int>& show
 
 } // namespace
 
-std::vector<Level> read_glb(std::string_view bytes) {
+std::vector<Level> read_glb(std::string_view bytes, const std::filesystem::path&) {
     const Model model = load(bytes);
     std::vector<int> shown;
     if (!model.scenes.empty())
