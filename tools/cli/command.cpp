@@ -80,7 +80,7 @@ std::string error_line(const LevelError& error, double sample) {
 }
 
 std::string normals_advice(double share) {
-    constexpr double good_part = 0.05;
+    constexpr double good_part = 0.1; // bouncingcow: 39 %; a teapot whose inside is seen: 6 %
     if (!(share >= good_part)) return "";
     return "the normals that the program drew are more than 60 degrees off the surface on " + number(std::round(100 * share)) +
            " % of it, so other lights may show it wrongly: --normals geometric takes those of the surface";

@@ -59,7 +59,7 @@ nlohmann::ordered_json to_json(const LevelError& error);
 /// The same for people: "mean 0.01 (0.2 samples), 99.9 % ..., max ...; normals 2 degrees; colours mean 0.01, 99.9 % 0.1".
 std::string error_line(const LevelError& error, double sample);
 
-/// Offers --normals geometric where drawn normals are far off a good part of the surface, a twentieth; else empty.
+/// Offers --normals geometric where drawn normals are far off a good part of the surface, a tenth; else empty.
 std::string normals_advice(double disagreeing_normals_share);
 
 /// "1234 triangles, 1851 edges, closed two-manifold"
