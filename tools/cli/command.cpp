@@ -1,6 +1,7 @@
 #include "tools/cli/command.h"
 
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -18,6 +19,13 @@ Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
 
 Progress::~Progress() {
     if (shown) std::fputs("\r\033[K", stderr);
+}
+
+std::function<void(const std::string& what)> progress_of_stages() {
+    return [now = std::shared_ptr<Progress>()](const std::string& what) mutable {
+        now.reset(); // clears its line before the next is written
+        if (!what.empty()) now = std::make_shared<Progress>(what);
+    };
 }
 
 void print_json(const nlohmann::ordered_json& object) {

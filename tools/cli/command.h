@@ -23,10 +23,6 @@ Run declare_render(CLI::App& app);
 Run declare_refine(CLI::App& app);
 Run declare_view(CLI::App& app);
 
-/// What `glcast mesh` makes of a capture when it is told nothing more: the full surface, then 1/10 and 1/100 of it,
-/// each closed, each measured. Throws std::runtime_error as it does.
-std::vector<Level> mesh_capture(const std::string& capture);
-
 /// A line to stderr: "glcast: ...".
 void say(const std::string& line);
 
@@ -41,6 +37,9 @@ class Progress {
   private:
     bool shown;
 };
+
+/// A Progress for each step of a run that tells of its steps; "" for none.
+std::function<void(const std::string& what)> progress_of_stages();
 
 /// One object on stdout, nothing else.
 void print_json(const nlohmann::ordered_json& object);

@@ -1,30 +1,16 @@
 // glcast mesh: capture -> surface -> levels -> file.
-#include <algorithm>
-#include <chrono>
-#include <future>
 #include <memory>
-#include <optional>
 #include <sys/resource.h>
 
 #include "tools/cli/command.h"
-#include "tools/cli/max_error.h"
-#include "tools/cli/progressive.h"
 #include "tools/cli/texture.h"
-#include "tools/deviation/level_error.h"
-#include "tools/io/capture_reader.h"
-#include "tools/io/mesh_io.h"
-#include "tools/reconstruct/reconstruct.h"
-#include "tools/simplify/simplify.h"
-#include "tools/texture/outline.h"
+#include "tools/pipeline/pipeline.h"
 
 namespace glcast::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Unit = SimplifyTarget::Unit;
-
-constexpr double default_ratios[] = {0.1, 0.01};
-constexpr double fewest_by_default = 500; // triangles: fewer and most things lose their shape
 
 struct Options {
     std::string capture, output, pm, method = "contour", exterior = "layers", normals = "drawn";
@@ -36,177 +22,16 @@ struct Options {
     bool split = false, check = false, json = false;
 };
 
-struct Stopwatch {
-    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-};
-
 const char* exterior_name(ExteriorRule rule) { return rule == ExteriorRule::layers ? "layers" : "axes"; }
 
-/// Everything there is to tell about a run.
-struct Made {
-    CaptureInfo info;
-    ReconstructReport report;
-    std::vector<Level> levels;     ///< [0]: the full surface, until write() leaves it out
-    std::vector<MeshCheck> checks; ///< of levels
-    CapturedSurface captured;      ///< where a texture is asked for
-    std::vector<TextureReport> textures; ///< of levels, or none
-    CollapseLog log;               ///< for a progressive mesh: of the run that made the levels
-    bool keep_full = true;         ///< .glb holds it always, the others when no target was given
-    std::vector<std::filesystem::path> files;
-    double sample = 0;
-    double read_seconds = 0, surface_seconds = 0, simplify_seconds = 0, measure_seconds = 0,
-           write_seconds = 0, texture_seconds = 0;
-
-    std::future<std::vector<TextureReport>> full_texture; ///< level 0's, where it is baked beside the last collapses
-
-    const Mesh& full() const { return levels[0].mesh; }
-};
-
-bool is_glb(const std::filesystem::path& file) { return file.extension() == ".glb"; }
-bool is_glb(const Options& options) { return is_glb(std::filesystem::path(options.output)); }
-
-void check_output(const Options& options) {
-    static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
-    const std::string extension = std::filesystem::path(options.output).extension();
-    if (std::find(std::begin(writable), std::end(writable), extension) == std::end(writable))
-        throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
-    if (extension != ".glb" && (options.split || options.compress != "none"))
-        throw std::runtime_error("--compress and --split are for .glb alone: name the output .glb");
-    require_writable(options.output);
-    if (!options.pm.empty()) check_pm_output(options.pm);
-}
-
-std::vector<SimplifyTarget> given_targets(const Options& options) {
-    std::vector<SimplifyTarget> targets;
-    for (double e : options.edges) targets.push_back({Unit::edges, e});
-    for (double t : options.triangles) targets.push_back({Unit::triangles, t});
-    for (double r : options.ratio) targets.push_back({Unit::ratio, r});
-    return targets;
-}
-
-std::vector<SimplifyTarget> default_targets(std::size_t triangles) {
-    std::vector<SimplifyTarget> targets;
-    double last = double(triangles);
-    for (double ratio : default_ratios) {
-        const double wanted = std::max(double(triangles) * ratio, fewest_by_default);
-        if (wanted > last / 2) break; // hardly a level of its own
-        targets.push_back({Unit::triangles, std::floor(wanted)});
-        last = wanted;
-    }
-    return targets;
-}
-
-/// Does the full surface meet the target as it is?
-bool met(const SimplifyTarget& target, const MeshCheck& full) {
-    switch (target.unit) {
-    case Unit::edges:
-        return double(full.edges) <= target.value;
-    case Unit::triangles:
-        return double(full.triangles) <= target.value;
-    default:
-        return target.value >= 1;
-    }
-}
-
-void require_manifold(const MeshCheck& check, const std::string& what) {
-    if (!check.closed_manifold())
-        throw std::runtime_error(what + " is not closed: " + describe(check) + "; nothing was written");
-}
-
-CheckDepth depth(const Options& options) {
-    return options.check ? CheckDepth::everything : CheckDepth::topology;
-}
-
-ReconstructOptions how_to(const Options& options, const CaptureInfo& info) {
+ReconstructOptions surface_options(const Options& options) {
     ReconstructOptions how;
     how.method = options.method == "cubes" ? SurfaceMethod::cubes : SurfaceMethod::contour;
     how.exterior = options.exterior == "axes" ? ExteriorRule::axes : ExteriorRule::layers;
-    how.complete_layers = info.layers == Layers::complete;
     how.close_gaps = options.close_gaps;
     how.sheet_thickness = options.sheet_thickness;
     how.geometric_normals = options.normals == "geometric";
     return how;
-}
-
-void make_surface(const Options& options, Made& made) {
-    HitBuilder hits;
-    {
-        const Progress progress("reading " + options.capture);
-        const Stopwatch watch;
-        made.info = read_capture(options.capture, [&](ViewImage&& image) { hits.add(image); });
-        made.read_seconds = watch.seconds();
-    }
-    const Progress progress("making the surface");
-    const Stopwatch watch;
-    made.sample = made.info.box.size / made.info.n;
-    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how_to(options, made.info), &made.report,
-                                       options.texture ? &made.captured : nullptr),
-                           "level 0", {}, made.sample, {}});
-    made.checks.push_back(check_mesh(made.full(), depth(options)));
-    made.surface_seconds = watch.seconds();
-    require_manifold(made.checks[0], "the surface");
-}
-
-/// Beside the last collapses, which leave cores idle.
-void begin_full_texture(const Options& options, Made& made) {
-    if (!options.texture || !made.keep_full) return;
-    made.full_texture = std::async(std::launch::async, [&] {
-        return texture_levels(std::span(made.levels).first(1), made.captured, options.texture);
-    });
-}
-
-/// The full surface first, then the targets, finest first.
-void make_levels(const Options& options, Made& made) {
-    const Progress progress("simplifying");
-    const Stopwatch watch;
-    std::vector<SimplifyTarget> targets = given_targets(options);
-    for (const std::string& limit : options.max_error)
-        targets.push_back(coarsest_within(made.levels[0], parse_error_limit(limit).in_units(made.levels[0]),
-                                          {.refit = options.pm.empty()}));
-    std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
-    made.keep_full = is_glb(options) || targets.empty();
-    if (targets.empty() && is_glb(options)) targets = default_targets(made.full().triangles.size());
-    const MeshCheck& full_check = made.checks[0];
-    if (is_glb(options)) std::erase_if(targets, [&](const auto& target) { return met(target, full_check); });
-    made.levels.reserve(1 + targets.size()); // level 0 stays where it is
-    std::vector<Mesh> simplified =
-        options.pm.empty()
-            ? simplify_levels(made.full(), targets,
-                              {.checked = &full_check, .last_stretch = [&] { begin_full_texture(options, made); }})
-            : levels_of_one_run(made.full(), targets, made.log);
-    for (Mesh& mesh : simplified) {
-        const std::string name = "level " + std::to_string(made.levels.size());
-        made.checks.push_back(check_mesh(mesh, depth(options)));
-        require_manifold(made.checks.back(), name);
-        made.levels.push_back({std::move(mesh), name, {}, made.sample, {}});
-    }
-    made.simplify_seconds = watch.seconds();
-}
-
-/// Textures hide what lies inside outlines. Not levels that a progressive mesh or a measured limit binds.
-void lay_outlines(const Options& options, Made& made) {
-    if (!options.texture || !options.pm.empty() || !options.max_error.empty()) return;
-    const Stopwatch watch;
-    for (std::size_t k = 1; k < made.levels.size(); ++k) {
-        fit_outlines(made.levels[k].mesh, made.captured);
-        made.checks[k] = check_mesh(made.levels[k].mesh, depth(options));
-    }
-    made.simplify_seconds += watch.seconds();
-}
-
-void bake_textures(const Options& options, Made& made) {
-    if (!options.texture) return;
-    const Stopwatch watch;
-    const bool begun = made.full_texture.valid();
-    const std::span<Level> rest = std::span(made.levels).subspan(made.keep_full && !begun ? 0 : 1);
-    std::vector<TextureReport> reports = texture_levels(rest, made.captured, options.texture);
-    if (begun) made.textures = made.full_texture.get();
-    made.textures.insert(made.textures.end(), reports.begin(), reports.end());
-    made.captured = {}; // it is large
-    made.texture_seconds = watch.seconds();
 }
 
 Compression compression(const Options& options) {
@@ -214,59 +39,27 @@ Compression compression(const Options& options) {
     return options.compress == "quantize" ? Compression::quantize : Compression::meshopt;
 }
 
-/// Against the full surface; where the file will hold rounded levels, these, and level 0 too.
-void measure_levels(const Options& options, Made& made) {
-    const Stopwatch watch;
-    made.levels[0].error.unsupported_area_share = made.report.unsupported_area_share;
-    std::optional<Level> exact;
-    if (compression(options) != Compression::none) {
-        exact = made.levels[0];
-        round_levels(made.levels, compression(options));
-        for (std::size_t k = 0; k < made.levels.size(); ++k)
-            made.checks[k] = check_mesh(made.levels[k].mesh, depth(options));
-    }
-    const std::size_t first = exact ? 0 : 1;
-    if (first < made.levels.size()) {
-        const LevelMeter meter(exact ? *exact : made.levels[0]);
-        for (std::size_t k = first; k < made.levels.size(); ++k)
-            made.levels[k].error = meter.measure(made.levels[k]);
-    }
-    made.measure_seconds = watch.seconds();
+PipelineOptions how_to(const Options& options) {
+    PipelineOptions how;
+    how.surface = surface_options(options);
+    for (double e : options.edges) how.targets.push_back({Unit::edges, e});
+    for (double t : options.triangles) how.targets.push_back({Unit::triangles, t});
+    for (double r : options.ratio) how.targets.push_back({Unit::ratio, r});
+    for (const std::string& limit : options.max_error) how.max_error.push_back(parse_error_limit(limit));
+    how.texture = options.texture;
+    how.compression = compression(options);
+    how.split = options.split;
+    how.progressive = options.pm;
+    how.check = options.check ? CheckDepth::everything : CheckDepth::topology;
+    how.stage = progress_of_stages();
+    return how;
 }
 
-/// `await_errors`: until then the levels may still be measured.
-void write(const Options& options, Made& made, const std::function<void()>& await_errors = {}) {
-    const Progress progress((await_errors ? "measuring, and writing " : "writing ") + options.output);
-    Stopwatch watch;
-    if (!options.pm.empty()) write_pm(options.pm, made.full(), made.log, made.sample);
-    if (!made.keep_full) made.levels.erase(made.levels.begin()), made.checks.erase(made.checks.begin());
-    made.files = write_levels(options.output, made.levels, {compression(options), options.split, [&] {
-                                                                if (!await_errors) return;
-                                                                await_errors();
-                                                                watch = {};
-                                                            }});
-    made.write_seconds = watch.seconds();
-}
-
-/// Where no level is rounded for the file, it is made ready beside the measuring.
-void measure_and_write(const Options& options, Made& made) {
-    if (!is_glb(options) || compression(options) != Compression::none) {
-        {
-            const Progress progress("measuring");
-            measure_levels(options, made);
-        }
-        write(options, made);
-        return;
-    }
-    auto measured = std::async(std::launch::async, [&] { measure_levels(options, made); });
-    write(options, made, [&] { measured.get(); });
-}
-
-Json describe_level(const Made& made, std::size_t k) {
+Json describe_level(const MeshedCapture& made, std::size_t k) {
     const Level& level = made.levels[k];
     Json json = to_json(made.checks[k]);
     json["name"] = level.name;
-    json["file"] = made.files[is_glb(made.files[0]) ? 0 : k].string();
+    json["file"] = made.files[made.files[0].extension() == ".glb" ? 0 : k].string();
     json.update(to_json(level.error));
     json["meanErrorSamples"] = level.error.mean / made.sample;
     json["p999ErrorSamples"] = level.error.p999 / made.sample;
@@ -275,10 +68,10 @@ Json describe_level(const Made& made, std::size_t k) {
     return json;
 }
 
-void print_made(const Options& options, const Made& made) {
+void print_made(const Options& options, const MeshedCapture& made) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const ReconstructReport& r = made.report;
+    const ReconstructReport& r = made.surface;
     Json json = {{"capture", options.capture},
                  {"n", made.info.n},
                  {"sample", made.sample},
@@ -297,17 +90,18 @@ void print_made(const Options& options, const Made& made) {
                        {"unsupportedCrossings", r.unsupported_crossings},
                        {"unsupportedAreaShare", r.unsupported_area_share},
                        {"verticesWithoutPixel", r.vertices_without_pixel}};
-    json["seconds"] = {{"read", made.read_seconds},       {"carve", r.carve_seconds},
-                       {"contour", r.surface_seconds},    {"attributes", r.attribute_seconds},
-                       {"surface", made.surface_seconds}, {"simplify", made.simplify_seconds},
-                       {"texture", made.texture_seconds}, {"measure", made.measure_seconds},
-                       {"write", made.write_seconds}};
+    const MeshedCapture::Seconds& seconds = made.seconds;
+    json["seconds"] = {{"read", seconds.read},          {"carve", r.carve_seconds},
+                       {"contour", r.surface_seconds},  {"attributes", r.attribute_seconds},
+                       {"surface", seconds.surface},    {"simplify", seconds.simplify},
+                       {"texture", seconds.texture},    {"measure", seconds.measure},
+                       {"write", seconds.write}};
     json["peakBytes"] = usage.ru_maxrss * 1024L;
     print_json(json);
 }
 
-void say_made(const Options& options, const Made& made) {
-    const ReconstructReport& r = made.report;
+void say_made(const Options& options, const MeshedCapture& made) {
+    const ReconstructReport& r = made.surface;
     say(options.capture + ": n = " + std::to_string(made.info.n) + ", sample " + number(made.sample) + ", " +
         number(100 * r.unsupported_area_share) + " % of the surface seen by no ray");
     if (r.exterior == ExteriorRule::axes && options.exterior == "layers")
@@ -325,17 +119,11 @@ void say_made(const Options& options, const Made& made) {
         say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
     if (!options.pm.empty())
         say("wrote " + options.pm + " (" + std::to_string(std::filesystem::file_size(options.pm)) + " bytes, " +
-            std::to_string(made.log.size()) + " vertex splits)");
+            std::to_string(made.vertex_splits) + " vertex splits)");
 }
 
 int make_mesh(const Options& options) {
-    check_output(options);
-    Made made;
-    make_surface(options, made);
-    make_levels(options, made);
-    lay_outlines(options, made);
-    bake_textures(options, made);
-    measure_and_write(options, made);
+    const MeshedCapture made = mesh_capture(options.capture, options.output, how_to(options));
     if (options.json)
         print_made(options, made);
     else
@@ -344,18 +132,6 @@ int make_mesh(const Options& options) {
 }
 
 } // namespace
-
-std::vector<Level> mesh_capture(const std::string& capture) {
-    Options options;
-    options.capture = capture;
-    options.output = "levels.glb"; // for its levels; nothing is written
-    Made made;
-    make_surface(options, made);
-    make_levels(options, made);
-    const Progress progress("measuring");
-    measure_levels(options, made);
-    return std::move(made.levels);
-}
 
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();

@@ -1,22 +1,10 @@
-// What commands do with progressive meshes beside refining them.
+// What `glcast info` says of a progressive mesh.
 #pragma once
 #include <filesystem>
-#include <span>
 
 #include "tools/cli/command.h"
-#include "tools/simplify/simplify.h"
 
 namespace glcast::cli {
-
-/// Throws unless `path` is one that write_pm can write: .glpm or .pm, in a place where a file can be made.
-void check_pm_output(const std::filesystem::path& path);
-
-/// Levels as simplify_levels makes them, all of one run that goes on to 500 triangles or fewer; `log` has all
-/// of it.
-std::vector<Mesh> levels_of_one_run(const Mesh& full, std::vector<SimplifyTarget> targets, CollapseLog& log);
-
-/// By extension: ours or OpenMesh's. Throws std::runtime_error.
-void write_pm(const std::filesystem::path& path, const Mesh& full, const CollapseLog& log, double sample);
 
 /// `glcast info` of a .glpm.
 int progressive_info(const std::filesystem::path& file, bool json);

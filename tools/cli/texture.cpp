@@ -23,15 +23,6 @@ CLI::Validator texture_size() {
         "SIZE");
 }
 
-std::vector<TextureReport> texture_levels(std::span<Level> levels, const CapturedSurface& captured,
-                                          int size) {
-    const Progress progress("baking textures");
-    std::vector<TextureReport> reports(levels.size());
-    for (std::size_t k = 0; k < levels.size(); ++k)
-        levels[k].texture = bake_texture(levels[k].mesh, captured, {.size = size}, &reports[k]);
-    return reports;
-}
-
 nlohmann::ordered_json to_json(const TextureReport& report) {
     return {{"charts", report.charts},
             {"gutter", report.gutter},

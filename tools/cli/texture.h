@@ -1,8 +1,5 @@
 // --texture SIZE of glcast mesh.
 #pragma once
-#include <span>
-#include <vector>
-
 #include "tools/cli/command.h"
 #include "tools/texture/bake.h"
 
@@ -10,9 +7,6 @@ namespace glcast::cli {
 
 /// A power of two in range.
 CLI::Validator texture_size();
-
-/// Textures every level; one report each.
-std::vector<TextureReport> texture_levels(std::span<Level> levels, const CapturedSurface& captured, int size);
 
 nlohmann::ordered_json to_json(const TextureReport& report);
 

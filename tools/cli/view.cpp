@@ -10,6 +10,7 @@
 #include "tools/deviation/level_error.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
+#include "tools/pipeline/pipeline.h"
 #include "tools/view/page.h"
 
 namespace glcast::cli {
@@ -48,7 +49,10 @@ std::string capture_of(const Options& options) {
 }
 
 std::vector<Level> levels_of(const std::string& file) {
-    return is_capture(file) ? mesh_capture(file) : read_levels(file);
+    if (!is_capture(file)) return read_levels(file);
+    PipelineOptions how;
+    how.stage = progress_of_stages();
+    return std::move(mesh_capture(file, how).levels);
 }
 
 /// All levels of all files, finest first. What files say of errors counts for their own level 0 alone.
@@ -76,6 +80,7 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
         PageLevel& one = described.emplace_back();
         one.mesh = &level.mesh;
         one.texture = &level.texture;
+        one.wedges = &level.wedges;
         one.name = level.name.empty() ? "level " + std::to_string(described.size() - 1) : level.name;
         one.glb_bytes = glb_size(level);
         one.error = level.error;

@@ -1,4 +1,4 @@
-#include "tools/cli/max_error.h"
+#include "tools/pipeline/max_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "tools/deviation/level_error.h"
 
-namespace glcast::cli {
+namespace glcast {
 namespace {
 
 constexpr double fewest = 4;       // triangles of a closed mesh
@@ -110,4 +110,4 @@ SimplifyTarget coarsest_within(const Level& full, double limit, const SimplifyOp
     return {SimplifyTarget::Unit::triangles, fine};
 }
 
-} // namespace glcast::cli
+} // namespace glcast

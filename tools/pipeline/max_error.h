@@ -5,7 +5,7 @@
 #include "tools/mesh/level.h"
 #include "tools/simplify/simplify.h"
 
-namespace glcast::cli {
+namespace glcast {
 
 /// "0.5" (samples), "0.5u" (model units), "0.1%" (of the diagonal of the bounding box).
 struct ErrorLimit {
@@ -23,4 +23,4 @@ ErrorLimit parse_error_limit(const std::string& text);
 /// measured, and errors taken to grow from level to level; the level found has been measured itself.
 SimplifyTarget coarsest_within(const Level& full, double limit, const SimplifyOptions& options);
 
-} // namespace glcast::cli
+} // namespace glcast

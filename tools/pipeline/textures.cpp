@@ -1,0 +1,13 @@
+#include "tools/pipeline/textures.h"
+
+namespace glcast {
+
+std::vector<TextureReport> texture_levels(std::span<Level> levels, const CapturedSurface& captured,
+                                          int size) {
+    std::vector<TextureReport> reports(levels.size());
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        levels[k].texture = bake_texture(levels[k].mesh, captured, {.size = size}, &reports[k]);
+    return reports;
+}
+
+} // namespace glcast
