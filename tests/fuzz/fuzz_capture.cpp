@@ -1,5 +1,5 @@
-// Captures. What is accepted is given to OpenEXR too, which must see the same header and the same pixels: then nobody can
-// be shown another picture than we saw.
+// Captures. What is accepted is given to OpenEXR too, which must see the same header and the same pixels:
+// then nobody can be shown another picture than we saw.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -29,7 +29,8 @@ void require(bool same) {
 std::vector<float> read_channel(Imf::InputPart& part, const char* name, int n) {
     std::vector<float> pixels(std::size_t(n) * std::size_t(n));
     Imf::FrameBuffer buffer;
-    buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 4 * std::size_t(n)));
+    buffer.insert(name,
+                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 4 * std::size_t(n)));
     part.setFrameBuffer(buffer);
     part.readPixels(0, n - 1);
     return pixels;
@@ -73,10 +74,12 @@ void change_attribute(RawCapture& capture, fuzz::Dice& dice) {
     if (part.empty()) return;
     const std::size_t k = dice() % part.size();
     RawAttribute& attribute = part[k];
-    static const char* types[] = {"int",          "float",  "double",   "v2f",     "v3i",     "v3d",         "m44d",
-                                  "box2i",        "string", "preview",  "tiledesc", "chlist", "stringvector", "zz",
-                                  "chromaticities", "timecode", "floatvector", "compression", "lineOrder", "idmanifest"};
-    static const char* names[] = {"tiles", "preview", "dataWindow", "type", "chunkCount", "version", "zz", "view"};
+    static const char* types[] = {"int",      "float",       "double",       "v2f",       "v3i",
+                                  "v3d",      "m44d",        "box2i",        "string",    "preview",
+                                  "tiledesc", "chlist",      "stringvector", "zz",        "chromaticities",
+                                  "timecode", "floatvector", "compression",  "lineOrder", "idmanifest"};
+    static const char* names[] = {"tiles",      "preview", "dataWindow", "type",
+                                  "chunkCount", "version", "zz",         "view"};
     switch (dice() % 9) {
     case 0:
         attribute.stated = dice() % 2 ? dice() : std::uint32_t(attribute.value.size() + dice() % 9 - 4);
@@ -119,8 +122,8 @@ void change_chunk(RawCapture& capture, fuzz::Dice& dice) {
     const std::string packed = capture.chunk(k);
     std::string bytes(1 << 16, 0);
     uLongf size = bytes.size();
-    if (uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                   packed.size()) != Z_OK) {
+    if (uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                   reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK) {
         std::string raw = packed;
         fuzz::mutate(raw, raw.size() + 16);
         return capture.replace_chunk(k, raw);
@@ -129,8 +132,8 @@ void change_chunk(RawCapture& capture, fuzz::Dice& dice) {
     fuzz::mutate(bytes, bytes.size() + dice() % 2);
     std::string again(compressBound(bytes.size()), 0);
     uLongf made = again.size();
-    compress2(reinterpret_cast<Bytef*>(again.data()), &made, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-              1);
+    compress2(reinterpret_cast<Bytef*>(again.data()), &made, reinterpret_cast<const Bytef*>(bytes.data()),
+              bytes.size(), 1);
     again.resize(made);
     capture.replace_chunk(k, again);
     if (capture.chunks.size() > (1u << 17)) capture.chunks.resize(1u << 17);

@@ -1,5 +1,5 @@
-// Meshes. What is accepted keeps what read_levels() promises, is checked, and written as .glb in one of three ways by turns:
-// that is read back.
+// Meshes. What is accepted keeps what read_levels() promises, is checked, and written as .glb in one of three
+// ways by turns: that is read back.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -26,7 +26,8 @@ void check_level(const Level& level) {
     require(!mesh.triangles.empty());
     for (const Triangle& t : mesh.triangles)
         for (std::uint32_t v : t) require(v < mesh.positions.size());
-    for (const glm::dvec3& p : mesh.positions) require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    for (const glm::dvec3& p : mesh.positions)
+        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
     require(mesh.colours.empty() || mesh.colours.size() == mesh.positions.size());
     for (const glm::vec3& c : mesh.colours)
@@ -59,15 +60,45 @@ std::uint32_t word(const std::string& bytes, std::size_t at) {
     std::memcpy(&value, bytes.data() + at, 4);
     return value;
 }
-void put(std::string& bytes, std::size_t at, std::uint32_t value) { std::memcpy(bytes.data() + at, &value, 4); }
+void put(std::string& bytes, std::size_t at, std::uint32_t value) {
+    std::memcpy(bytes.data() + at, &value, 4);
+}
 
 /// A number of the description becomes another, or a name of it.
 void change_json(std::string& json, fuzz::Dice& dice) {
     if (dice() % 3 == 0) return fuzz::mutate(json, json.size() + 64);
-    static const char* words[] = {"0", "1", "2", "3", "4", "5", "6", "255", "5120", "5121", "5123", "5125", "5126", "65537", "4294967295",
-                                  "18446744073709551615", "-1", "1e300", "1e99", "0.5", "null", "[]", "{}", "true",
-                                  "\"MAT4\"", "\"SCALAR\"", "\"VEC3\"", "[0,0,0]", "\"data:application/octet-stream;base64,AAAA\""};
-    const auto starts = [&](std::size_t at) { return std::isdigit(static_cast<unsigned char>(json[at])) || json[at] == '"'; };
+    static const char* words[] = {"0",
+                                  "1",
+                                  "2",
+                                  "3",
+                                  "4",
+                                  "5",
+                                  "6",
+                                  "255",
+                                  "5120",
+                                  "5121",
+                                  "5123",
+                                  "5125",
+                                  "5126",
+                                  "65537",
+                                  "4294967295",
+                                  "18446744073709551615",
+                                  "-1",
+                                  "1e300",
+                                  "1e99",
+                                  "0.5",
+                                  "null",
+                                  "[]",
+                                  "{}",
+                                  "true",
+                                  "\"MAT4\"",
+                                  "\"SCALAR\"",
+                                  "\"VEC3\"",
+                                  "[0,0,0]",
+                                  "\"data:application/octet-stream;base64,AAAA\""};
+    const auto starts = [&](std::size_t at) {
+        return std::isdigit(static_cast<unsigned char>(json[at])) || json[at] == '"';
+    };
     if (json.empty()) return;
     std::size_t at = dice() % json.size();
     while (at < json.size() && !starts(at)) ++at;

@@ -14,13 +14,13 @@
 
 namespace glcast::format {
 
-// Readers take the whole file and throw std::runtime_error without its name. Meshes need not be checked:
-// read_levels does.
-std::vector<Level> read_glb(std::string_view bytes);
-std::vector<Level> read_obj(std::string_view bytes);
-std::vector<Level> read_ply(std::string_view bytes);
-std::vector<Level> read_off(std::string_view bytes);
-std::vector<Level> read_stl(std::string_view bytes);
+// Readers take the whole file, and where it lies for what it names, and throw std::runtime_error without its name. Meshes
+// need not be checked: read_levels does.
+std::vector<Level> read_glb(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path& path);
 
 /// The files of a run, which appear together.
 class FileSet {

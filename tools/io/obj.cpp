@@ -100,7 +100,7 @@ struct ObjReader {
 
 } // namespace
 
-std::vector<Level> read_obj(std::string_view bytes) {
+std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path&) {
     ObjReader reader(bytes);
     reader.read();
     if (reader.mesh.positions.empty()) refuse("holds no vertices");

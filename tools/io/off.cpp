@@ -78,7 +78,7 @@ struct OffReader {
 
 } // namespace
 
-std::vector<Level> read_off(std::string_view bytes) {
+std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path&) {
     OffReader reader(bytes);
     reader.read();
     return one_level(std::move(reader.mesh));

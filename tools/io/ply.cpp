@@ -251,7 +251,7 @@ void skip(Values& values, const Element& element) {
 
 } // namespace
 
-std::vector<Level> read_ply(std::string_view bytes) {
+std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path&) {
     TextCursor cursor(bytes);
     const Header header = read_header(cursor);
     Values values(cursor.remaining(), header.encoding);

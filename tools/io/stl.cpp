@@ -80,7 +80,7 @@ Mesh read_ascii(std::string_view bytes) {
 
 } // namespace
 
-std::vector<Level> read_stl(std::string_view bytes) {
+std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path&) {
     // Binary files may begin with "solid" too, so their length decides.
     if (bytes.size() >= binary_head &&
         bytes.size() == binary_head + std::size_t(binary_count(bytes)) * binary_triangle)
