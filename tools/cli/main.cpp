@@ -53,7 +53,9 @@ bool printed_all() {
 int explain(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         const int status = app.exit(error);
-        return std::cout.flush() && printed_all() ? status : failed;
+        if (std::cout.flush()) return status;
+        say("cannot write to standard output");
+        return failed;
     }
     const auto chosen = app.get_subcommands();
     say(one_line(error.what()) + " (see glcast " + (chosen.empty() ? "" : chosen[0]->get_name() + " ") +
