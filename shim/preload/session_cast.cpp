@@ -6,6 +6,7 @@
 
 #include "shim/preload/cast.h"
 #include "shim/preload/meant_program.h"
+#include "shim/preload/own_stack.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
 #include "shim/preload/status.h"
@@ -31,7 +32,7 @@ void frame_without_cast(Session& s, const Census& held) {
 }
 
 void end_program() {
-    say("ending the program, as asked");
+    if (speaks_alone()) say("ending the program, as asked");
     kill(getpid(), SIGTERM);
 }
 
@@ -78,9 +79,9 @@ void finish(Session& s, FrameKey window, long number, const CastResult& result) 
     }
     if (s.told_looks) tell("settled", "");
     if (result.outcome == CastOutcome::failed) {
-        say_once("%s", result.message.c_str());
+        if (speaks_alone()) say_once("%s", result.message.c_str());
         tell("failed", result.message);
-    } else {
+    } else if (speaks_alone()) {
         say("%s", result.message.c_str());
     }
     if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
@@ -136,12 +137,12 @@ bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result
         more = s.holding ? s.windows.any_may_follow() : s.windows.others_may_follow(drawable);
     }
     if (s.holding) {
-        if (shown) say("%s", result.message.c_str());
+        if (shown && speaks_alone()) say("%s", result.message.c_str());
         if (!more) settle(s);
         return true;
     }
     if (!shown || !more || !chooses_a_window(s.options)) return false;
-    say("%s", result.message.c_str());
+    if (speaks_alone()) say("%s", result.message.c_str());
     hold(s);
     return true;
 }
@@ -225,11 +226,7 @@ class HeldContexts {
     }
 };
 
-} // namespace
-
-void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
-                long number) {
-    if (parts.empty()) return frame_without_cast(s, {});
+void cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
     if (s.casting.exchange(true)) return; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
@@ -244,6 +241,14 @@ void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* c
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
     if (among_windows(s, window.second, result)) return;
     nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+}
+
+} // namespace
+
+void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
+                long number) {
+    if (parts.empty()) return frame_without_cast(s, {});
+    on_own_stack(HeldSignals::handled, [&] { cast_or_pass(s, parts, current, window, number); });
 }
 
 } // namespace glcast::preload

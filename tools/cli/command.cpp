@@ -15,6 +15,12 @@ namespace glcast::cli {
 
 void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", printable(line).c_str()); }
 
+void require_file(const std::string& file) {
+    std::error_code unknown;
+    if (!std::filesystem::exists(file, unknown) && unknown.value() == 0) throw std::runtime_error("no such file: " + file);
+    if (std::filesystem::is_directory(file, unknown)) throw std::runtime_error(file + " is a folder");
+}
+
 Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
     if (shown) std::fprintf(stderr, "glcast: %s ...", printable(what).c_str());
 }
@@ -83,6 +89,13 @@ std::string error_line(const LevelError& error, double sample) {
     return "mean " + length(error.mean) + ", 99.9 % " + length(error.p999) + ", max " + length(error.max) +
            "; normals " + number(error.normal_mean_degrees) + " degrees; colours mean " +
            number(error.colour_mean) + ", 99.9 % " + number(error.colour_p999);
+}
+
+std::string normals_advice(double share) {
+    constexpr double good_part = 0.05;
+    if (!(share >= good_part)) return "";
+    return "the normals that the program drew are more than 60 degrees off the surface on " + number(std::round(100 * share)) +
+           " % of it, so other lights may show it wrongly: --normals geometric takes those of the surface";
 }
 
 std::string summary(const MeshCheck& check) {

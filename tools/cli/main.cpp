@@ -12,6 +12,7 @@
 
 #include "tools/cli/command.h"
 #include "tools/cli/interrupt.h"
+#include "tools/words/text.h"
 
 namespace {
 
@@ -73,6 +74,17 @@ void require_finite(const CLI::App& command) {
     }
 }
 
+/// The first word where it is no command: which one was meant, and which there are. Else empty.
+std::string no_such_command(int argc, const char* const* argv) {
+    const std::string word = argc > 1 ? argv[1] : "";
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.emplace_back(command.name);
+    if (word.empty() || word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return "";
+    const std::string meant = glcast::nearest(word, names);
+    const std::string which = meant.empty() ? "there are " : "do you mean " + meant + "? There are ";
+    return "no such command: " + word + "; " + which + glcast::enumeration(names) + " (see glcast --help)";
+}
+
 int run(const Run& command) {
     try {
         const int status = command();
@@ -95,6 +107,10 @@ int main(int argc, char** argv) {
         "glcast"};
     app.set_version_flag("--version", "glcast " GLCAST_VERSION);
     app.require_subcommand(1);
+    if (const std::string trouble = no_such_command(argc, argv); !trouble.empty()) {
+        say(trouble);
+        return usage;
+    }
     Run chosen;
     for (const Command& command : commands) {
         CLI::App* sub = app.add_subcommand(command.name, command.synopsis);

@@ -58,14 +58,13 @@ bool write_off(FileSet& files, const std::filesystem::path& path, const Level& l
 
 std::vector<Level> one_level(Mesh mesh);
 
-/// Where floats lose digits: a mesh so far from the origin that its own size is small beside its coordinates.
+/// Where floats lose digits that show: a mesh so far from the origin that its own size is small beside its coordinates.
 bool needs_doubles(const Mesh& mesh);
+/// Are all coordinates floats?
+bool floats_hold(const Mesh& mesh);
 
 /// Centre of the bounding box.
 glm::dvec3 centre(const Mesh& mesh);
-
-/// Triangles of a polygon, as a fan from its first corner.
-void add_fan(Mesh& mesh, std::span<const std::uint32_t> corners);
 
 // Display value (sRGB) to linear light and back, 0..1.
 float to_linear(float display);

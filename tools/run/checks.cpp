@@ -14,6 +14,8 @@
 #include <sstream>
 #include <vector>
 
+#include "capture/output_file.h"
+
 namespace glcast::run {
 namespace fs = std::filesystem;
 namespace {
@@ -73,18 +75,15 @@ std::string check_output(const fs::path& file) {
     if (fs::is_directory(file, ignored)) {
         return "cannot write " + file.string() + ": it is a folder";
     }
+    if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+        return "cannot write " + file.string() + ": it is no regular file";
+    }
     if (fs::exists(file, ignored) && access(file.c_str(), W_OK) != 0) {
         return "cannot write " + file.string() + ": " + reason(errno);
     }
-    // Permission bits do not tell the truth to root nor on a read-only file system, so try.
-    std::string trial = (file.parent_path() / ".glcast-XXXXXX").string();
-    const int descriptor = mkstemp(trial.data());
-    if (descriptor < 0) {
-        return "cannot write " + file.string() + ": " + reason(errno);
-    }
-    close(descriptor);
-    unlink(trial.c_str());
-    return {};
+    // Permission bits do not tell the truth to root nor on a read-only file system, so try: without a name where that can be
+    // done, so that nothing is left when we are killed meanwhile.
+    return why_not_writable(file);
 }
 
 std::string check_program(const fs::path& program) {

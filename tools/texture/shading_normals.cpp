@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -43,26 +44,39 @@ ShadingNormal shading_normal(const Mesh& mesh, const Neighbours& neighbours,
     return {(inward ? -sum : sum) / length, inward};
 }
 
+constexpr std::uint8_t outward = 0, inward = 1, in_part = 2, turned = 3;
+
 /// Parts that point inward while what they are joined to does not are turned about: between the two,
-/// interpolated normals would pass through all directions.
-void turn_inward_parts(Mesh& mesh, const Neighbours& neighbours, std::vector<std::uint8_t>& inward) {
+/// interpolated normals would pass through all directions. `joined(k, visit)`: calls visit for all that normal k is
+/// joined to.
+template <class Joined>
+void turn_inward_parts(std::vector<glm::vec3>& normals, std::vector<std::uint8_t>& way, const Joined& joined) {
     std::vector<std::uint32_t> part;
-    for (std::uint32_t seed = 0; seed < inward.size(); ++seed) {
-        if (inward[seed] != 1) continue;
-        bool joined = false;
+    for (std::uint32_t seed = 0; seed < way.size(); ++seed) {
+        if (way[seed] != inward) continue;
+        bool to_outward = false;
         part = {seed};
-        inward[seed] = 2; // in a part
+        way[seed] = in_part;
         for (std::size_t k = 0; k < part.size(); ++k)
-            for (const std::uint32_t corner : neighbours.around(part[k]))
-                for (const std::uint32_t v : mesh.triangles[corner / 3]) {
-                    joined |= !inward[v];
-                    if (inward[v] == 1) inward[v] = 2, part.push_back(v);
-                }
-        for (const std::uint32_t v : part) {
-            if (joined) mesh.normals[v] = -mesh.normals[v];
-            inward[v] = 3; // done
+            joined(part[k], [&](std::uint32_t other) {
+                to_outward |= way[other] == outward;
+                if (way[other] == inward) way[other] = in_part, part.push_back(other);
+            });
+        for (const std::uint32_t k : part) {
+            if (to_outward) normals[k] = -normals[k];
+            way[k] = turned;
         }
     }
+}
+
+/// Within so many radians of `axis`.
+glm::vec3 turned_towards(const glm::vec3& normal, const glm::vec3& axis, float radians) {
+    const float along = glm::dot(normal, axis);
+    if (along >= std::cos(radians)) return normal;
+    glm::vec3 across = normal - along * axis;
+    const float length = glm::length(across);
+    if (!(length > 1e-6f)) return axis;
+    return std::cos(radians) * axis + std::sin(radians) * across / length;
 }
 
 } // namespace
@@ -70,16 +84,84 @@ void turn_inward_parts(Mesh& mesh, const Neighbours& neighbours, std::vector<std
 void make_shading_normals(Mesh& mesh, const Neighbours& neighbours, const std::vector<glm::vec3>& normals) {
     if (mesh.normals.size() != mesh.positions.size())
         mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
-    std::vector<std::uint8_t> inward(mesh.positions.size());
+    std::vector<std::uint8_t> way(mesh.positions.size());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(mesh.positions.size()), 2048),
                       [&](const auto& range) {
                           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
                               const ShadingNormal made = shading_normal(mesh, neighbours, normals, v);
                               mesh.normals[v] = made.normal;
-                              inward[v] = made.inward;
+                              way[v] = made.inward ? inward : outward;
                           }
                       });
-    turn_inward_parts(mesh, neighbours, inward);
+    turn_inward_parts(mesh.normals, way, [&](std::uint32_t vertex, const auto& visit) {
+        for (const std::uint32_t corner : neighbours.around(vertex))
+            for (const std::uint32_t v : mesh.triangles[corner / 3]) visit(v);
+    });
+}
+
+namespace {
+
+/// The mean normals of wedges' triangles, by area; 0 where they have none.
+std::vector<glm::vec3> mean_normals(const Mesh& mesh, const Wedges& wedges) {
+    std::vector<glm::dvec3> sums(wedges.normals.size(), glm::dvec3(0));
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t) {
+        const Triangle& v = mesh.triangles[t];
+        const glm::dvec3 &p = mesh.positions[v[0]], area = glm::cross(mesh.positions[v[1]] - p, mesh.positions[v[2]] - p);
+        for (const std::uint32_t w : wedges.corners[t]) sums[w] += area;
+    }
+    std::vector<glm::vec3> means(sums.size(), glm::vec3(0));
+    for (std::size_t w = 0; w < sums.size(); ++w)
+        if (const double length = glm::length(sums[w]); length > 0) means[w] = glm::vec3(sums[w] / length);
+    return means;
+}
+
+/// A wedge for this corner alone.
+void split_off(Wedges& wedges, std::vector<std::uint8_t>& way, std::uint32_t& corner, const glm::vec3& normal) {
+    const std::uint32_t from = corner;
+    corner = std::uint32_t(wedges.normals.size());
+    wedges.normals.push_back(normal);
+    if (!wedges.colours.empty()) wedges.colours.push_back(glm::vec3(wedges.colours[from]));
+    way.push_back(std::uint8_t(way[from]));
+}
+
+/// Which of the wedges point inward.
+std::vector<std::uint8_t> bound(const Mesh& mesh, Wedges& wedges, const std::vector<glm::vec3>& normals,
+                                double degrees) {
+    const float radians = float(degrees * std::numbers::pi / 180), rounding = 1e-3f;
+    std::vector<std::uint8_t> way(wedges.normals.size());
+    const std::vector<glm::vec3> means = mean_normals(mesh, wedges);
+    for (std::size_t w = 0; w < way.size(); ++w) {
+        glm::vec3& normal = wedges.normals[w];
+        way[w] = glm::dot(normal, means[w]) < -std::cos(radians) ? inward : outward;
+        if (means[w] != glm::vec3(0))
+            normal = turned_towards(normal, way[w] == inward ? -means[w] : means[w], radians);
+    }
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t)
+        for (std::uint32_t& w : wedges.corners[t]) {
+            const glm::vec3 axis = way[w] == inward ? -normals[t] : normals[t];
+            if (axis == glm::vec3(0) || glm::dot(wedges.normals[w], axis) >= std::cos(radians + rounding)) continue;
+            split_off(wedges, way, w, turned_towards(wedges.normals[w], axis, radians));
+        }
+    return way;
+}
+
+} // namespace
+
+void bound_normals(const Mesh& mesh, Wedges& wedges, const std::vector<glm::vec3>& normals, double degrees) {
+    bound(mesh, wedges, normals, degrees);
+}
+
+void make_shading_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                          const std::vector<glm::vec3>& normals) {
+    constexpr double degrees = 60;
+    std::vector<std::uint8_t> way = bound(mesh, wedges, normals, degrees);
+    std::vector<std::uint32_t> vertex_of(wedges.normals.size());
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) vertex_of[wedges.corners[t][k]] = mesh.triangles[t][k];
+    turn_inward_parts(wedges.normals, way, [&](std::uint32_t wedge, const auto& visit) {
+        for (const std::uint32_t corner : neighbours.around(vertex_of[wedge]))
+            for (const std::uint32_t w : wedges.corners[corner / 3]) visit(w);
+    });
 }
 
 } // namespace glcast
