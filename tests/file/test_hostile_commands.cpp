@@ -141,5 +141,5 @@ TEST_F(HostileCommand, DevicesAndPipesAreSaidToBeSuch) {
     expect_refused(glcast("info fifo.glb"), 1, "no regular file"); // and nobody waits
     expect_refused(glcast("info fifo.exr"), 1, "no regular file");
     expect_refused(glcast("mesh fifo.exr -o o.glb"), 1, "no regular file");
-    expect_refused(glcast("info none.exr"), 1, "No such file");
+    expect_refused(glcast("info none.exr"), 1, "o such file");
 }

@@ -91,8 +91,9 @@ int run(const Run& command) {
         return printed_all() ? status : failed;
     } catch (const std::bad_alloc&) {
         say("out of memory; a smaller -n in glcast-run needs less");
-    } catch (const std::system_error& error) { // threads
-        say(one_line(error.what()) + ": out of memory or of threads");
+    } catch (const std::system_error& error) {
+        const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+        say(one_line(error.what()) + (no_thread ? ": out of memory or of threads" : ""));
     } catch (const std::exception& error) {
         say(one_line(error.what()));
     }
