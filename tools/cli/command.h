@@ -50,6 +50,9 @@ void require_file(const std::string& file);
 /// Throws when a file cannot be made at `path`: asked before hours of work, not after.
 void require_writable(const std::filesystem::path& path);
 
+/// Throws std::runtime_error for a mesh so large that areas and distances are no numbers any more.
+void require_measurable(const Mesh& mesh, const MeshCheck& check);
+
 /// Everything check_mesh counts.
 nlohmann::ordered_json to_json(const MeshCheck& check);
 

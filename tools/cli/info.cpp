@@ -136,7 +136,7 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
 
 int info(const Options& options) {
     require_file(options.file);
-    if (looks_like_exr(options.file)) {
+    if (looks_like_exr(options.file) || std::filesystem::path(options.file).extension() == ".exr") {
         const Json json = describe_capture(options);
         options.json ? print_json(json) : print_capture(json);
         return 0;
@@ -148,6 +148,7 @@ int info(const Options& options) {
     std::vector<MeshCheck> checks;
     for (const Level& level : levels) {
         checks.push_back(check_mesh(level.mesh, CheckDepth::everything));
+        require_measurable(level.mesh, checks.back());
         json["levels"].push_back(describe_level(level, checks.back()));
     }
     if (options.json) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "capture/output_file.h"
+#include "tools/io/input_file.h"
 #include "tools/io/mesh_format.h"
 
 namespace glcast {
@@ -68,6 +69,7 @@ struct Format {
 
 constexpr Format formats[] = {
     {".glb", format::read_glb, nullptr, true},
+    {".gltf", format::read_glb, nullptr, false},
     {".obj", format::read_obj, format::write_obj, false},
     {".ply", format::read_ply, format::write_ply, false},
     {".off", format::read_off, format::write_off, false},
@@ -79,17 +81,14 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .stl");
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .gltf or .stl");
 }
 
 std::string read_file(const std::filesystem::path& path) {
-    std::error_code code;
-    if (std::filesystem::is_directory(path, code)) format::refuse("is a folder");
-    std::ifstream file(path, std::ios::binary);
-    if (!file) format::refuse(std::strerror(errno));
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (bytes.empty()) format::refuse("the file is empty");
-    return bytes;
+    const InputFile file(path);
+    if (file.size() == 0) format::refuse("the file is empty");
+    const std::vector<char> bytes = file.read(0, file.size());
+    return {bytes.begin(), bytes.end()};
 }
 
 constexpr double farthest = 1.844e18; ///< Embree's: beyond it distances cannot be measured
@@ -189,6 +188,8 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
         std::vector<Level> levels = f.read(read_file(path), path);
         for (Level& level : levels) tidy(level);
         return levels;
+    } catch (const std::bad_alloc&) {
+        throw; // no fault of the file
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());
     }
