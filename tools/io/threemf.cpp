@@ -23,7 +23,7 @@ void require(LIB3MFRESULT result) {
 
 /// Of lib3mf, given back at the end.
 struct Handle {
-    void* of = nullptr;
+    PLib3MFBase* of = nullptr;
     ~Handle() {
         if (of) lib3mf_release(of);
     }
@@ -37,7 +37,7 @@ std::size_t unit_for(const Mesh& mesh, std::size_t asked) {
     return 0;
 }
 
-void add_geometry(void* object, const Mesh& mesh, const glm::dvec3& from, double scale) {
+void add_geometry(PLib3MFBase* object, const Mesh& mesh, const glm::dvec3& from, double scale) {
     std::vector<MODELMESHVERTEX> vertices(mesh.positions.size());
     for (std::size_t v = 0; v < vertices.size(); ++v)
         for (int k = 0; k < 3; ++k)
@@ -54,7 +54,7 @@ MODELMESHCOLOR_SRGB bytes_of(const glm::vec3& colour) {
     return {channel(colour.x), channel(colour.y), channel(colour.z), 255};
 }
 
-void add_colours(void* object, const Level& level) {
+void add_colours(PLib3MFBase* object, const Level& level) {
     if (!has_colours(level.mesh, level.wedges)) return;
     std::vector<MODELMESH_TRIANGLECOLOR_SRGB> colours(level.mesh.triangles.size());
     for (std::size_t t = 0; t < colours.size(); ++t) {
@@ -73,7 +73,7 @@ void add_colours(void* object, const Level& level) {
 constexpr const char *object_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617301", *item_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617302",
                      *build_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617303";
 
-std::vector<BYTE> bytes_of_model(void* model) {
+std::vector<BYTE> bytes_of_model(PLib3MFBase* model) {
     Handle writer;
     ULONG64 size = 0;
     require(lib3mf_model_querywriter(model, "3mf", &writer.of));
