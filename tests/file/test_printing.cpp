@@ -95,7 +95,7 @@ TEST(ThreeMf, ReadBackByLib3mfWithUnitAndColours) {
     const Folder folder;
     const Mesh mesh = torus(20, 12);
     write(folder / "t.3mf", level_of(mesh), "inch");
-    PLib3MFBase **model = nullptr, **reader = nullptr, **objects = nullptr, **object = nullptr, **handler = nullptr;
+    PLib3MFBase *model = nullptr, *reader = nullptr, *objects = nullptr, *object = nullptr, *handler = nullptr;
     ASSERT_EQ(lib3mf_createmodel(&model), 0);
     ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", &reader), 0);
     ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "t.3mf").c_str()), 0);
