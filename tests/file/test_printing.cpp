@@ -129,13 +129,3 @@ TEST(ThreeMf, ReadBackByLib3mfWithUnitAndColours) {
     }
     for (PLib3MFBase* of : {handler, object, objects, reader, model}) lib3mf_release(of);
 }
-
-TEST(ThreeMf, ReadBackByAssimp) {
-    const Folder folder;
-    const Mesh mesh = torus(20, 12);
-    write(folder / "t.3mf", level_of(mesh));
-    const MeshCheck check = check_mesh(by_assimp(folder / "t.3mf"), CheckDepth::everything);
-    EXPECT_TRUE(check.closed_manifold());
-    EXPECT_EQ(check.triangles, mesh.triangles.size());
-    EXPECT_NEAR(check.volume, check_mesh(mesh).volume, 1e-4 * check.volume);
-}

@@ -221,9 +221,9 @@ Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels
 std::string note_on(const std::filesystem::path& path, const Level& level) {
     const Format& f = format_of(path);
     const glm::dvec3 from = format::origin_of_floats(level.mesh);
-    if (f.write != format::write_stl || from == glm::dvec3(0)) return {};
+    if ((f.write != format::write_stl && f.write != format::write_3mf) || from == glm::dvec3(0)) return {};
     return path.string() + ": the model is moved by " + format::moved_by(from) +
-           ", as a .stl has floats and these would lose its digits where it is";
+           ", as floats would lose its digits where it is";
 }
 
 std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }

@@ -96,9 +96,8 @@ bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& l
     require(lib3mf_object_setnameutf8(object.of, path.stem().c_str()));
     add_geometry(object.of, level.mesh, from, scale);
     add_colours(object.of, level);
-    MODELTRANSFORM place{};
-    for (int k = 0; k < 3; ++k) place.m_fFields[k][k] = 1, place.m_fFields[k][3] = static_cast<float>(from[k] * scale);
-    require(lib3mf_model_addbuilditem(model.of, object.of, from == glm::dvec3(0) ? nullptr : &place, &item.of));
+    // No transform: lib3mf writes six digits of it, too few for places that are far away.
+    require(lib3mf_model_addbuilditem(model.of, object.of, nullptr, &item.of));
     require(lib3mf_object_setuuidutf8(object.of, object_uuid));
     require(lib3mf_builditem_setuuidutf8(item.of, item_uuid));
     require(lib3mf_model_setbuilduuidutf8(model.of, build_uuid));
