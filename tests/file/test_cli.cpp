@@ -150,7 +150,7 @@ TEST_F(Command, Usage) {
 TEST_F(Command, NamesTheCommandThatWasMeant) {
     expect_one_line(glcast_run("foo"), 2, "no such command: foo; there are mesh, info, compare, refine, render and view");
     expect_one_line(glcast_run("mehs a.exr -o a.glb"), 2, "no such command: mehs; do you mean mesh? There are mesh, info");
-    expect_one_line(glcast_run("$'\\033[2J'"), 2, "\\x1b[2J");
+    expect_one_line(glcast_run("'\x1b[2J'"), 2, "\\x1b[2J");
 }
 
 TEST_F(Command, SaysThatThereIsNoSuchFile) {

@@ -284,6 +284,6 @@ TEST(Refused, InOneLine) {
             << name << ": " << why_refused(folder / name);
     }
     EXPECT_NE(why_refused(folder / "none.obj").find("No such file"), std::string::npos);
-    EXPECT_THROW(write_levels(folder / "x.stl", std::vector{level_of(tetrahedron(), "level 0")}),
-                 std::runtime_error);
+    write_text(folder / "a.3mf", "hello");
+    EXPECT_NE(why_refused(folder / "a.3mf").find("written only"), std::string::npos);
 }

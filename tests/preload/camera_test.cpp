@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Cameras, Ways,
                                          "whole_matrix", "clipped_whole", "view_in_projection",
                                          "parallel_planes", "parallel_whole", "ortho_in_modelview",
                                          "frustum_in_modelview", "upside_down_blit", "upside_down_quad",
-                                         "upside_down_unseen"),
+                                         "upside_down_left_handed", "upside_down_unseen"),
                          [](const auto& info) { return std::string(info.param); });
 
 // The cube, which comes last, tells the lens.

@@ -51,9 +51,9 @@ void write_textured_page(const std::string& path) {
     PageInput input;
     input.title = "textured";
     input.levels = {
-        {&fine, &fine_texture, "level 0", 1000, first, std::vector<double>(fine.positions.size())},
-        {&coarse, &coarse_texture, "level 1", 500, error, std::vector<double>(coarse.positions.size())},
-        {&coarse, nullptr, "level 2", 400, error, std::vector<double>(coarse.positions.size())}};
+        {&fine, &fine_texture, nullptr, "level 0", 1000, first, std::vector<double>(fine.positions.size())},
+        {&coarse, &coarse_texture, nullptr, "level 1", 500, error, std::vector<double>(coarse.positions.size())},
+        {&coarse, nullptr, nullptr, "level 2", 400, error, std::vector<double>(coarse.positions.size())}};
     std::vector<ViewImage> views;
     for (const View& view : six_views()) views.push_back(sphere_view(16, view.axis, view.side));
     const CaptureInfo info = sphere_info(16);

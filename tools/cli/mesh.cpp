@@ -18,7 +18,7 @@ struct Options {
     std::vector<double> edges, triangles, ratio;
     std::vector<std::string> max_error;
     int texture = 0; ///< texels along an edge; 0: none
-    std::string compress = "none";
+    std::string compress = "none", units; ///< none said: millimetres
     bool split = false, check = false, json = false, verbose = false;
     bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it starts a program
 };
@@ -49,6 +49,7 @@ PipelineOptions how_to(const Options& options) {
     for (const std::string& limit : options.max_error) how.max_error.push_back(parse_error_limit(limit));
     how.texture = options.texture;
     how.compression = compression(options);
+    if (!options.units.empty()) how.units = length_unit(options.units);
     how.split = options.split;
     how.progressive = options.pm;
     how.check = options.check ? CheckDepth::everything : CheckDepth::topology;
@@ -132,6 +133,7 @@ int make_mesh(const Options& options) {
     }
     require_file(options.capture);
     const MeshedCapture made = mesh_capture(options.capture, options.output, how_to(options));
+    if (const std::string note = note_on(options.output, made.levels[0]); !note.empty()) say(note);
     if (options.json)
         print_made(options, made);
     else
@@ -154,9 +156,9 @@ Run declare_mesh(CLI::App& app) {
         "written.\n"
         "With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the\n"
         "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
-        "Positions are in the captured model's own units and axes. .off keeps colours but no normals.");
+        "Positions are in the captured model's own units and axes. .off and .3mf keep colours but no normals, .stl neither.");
     app.add_option("capture", options->capture, "capture made by glcast-run (.exr)")->required();
-    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply or .off")->required();
+    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")->required();
     app.add_option("--method", options->method,
                    "contour: smooth, sharp edges kept; cubes: a square per exposed face")
         ->check(CLI::IsMember({"contour", "cubes"}))
@@ -206,6 +208,9 @@ Run declare_mesh(CLI::App& app) {
                    "bake colours and normals of every level into textures so many texels wide: 64, 128, ... 8192")
         ->check(texture_size());
     app.parse_complete_callback([options] {
+        const std::string ending = std::filesystem::path(options->output).extension();
+        if (!options->units.empty() && ending != ".stl" && ending != ".3mf")
+            throw CLI::ValidationError("--units", "is for .stl and .3mf: other formats have no unit of length to say");
         if (options->texture && options->method == "cubes")
             throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
     });
@@ -213,6 +218,8 @@ Run declare_mesh(CLI::App& app) {
                    ".glb: quantize: 16-bit positions, a fifth smaller; meshopt: the same, compressed: a sixth of the size")
         ->check(CLI::IsMember({"none", "quantize", "meshopt"}))
         ->capture_default_str();
+    app.add_option("--units", options->units, ".stl, .3mf: what a unit of the model is: um, mm, cm, inch, ft or m; default: mm")
+        ->check(CLI::IsMember({"um", "mm", "cm", "inch", "ft", "m"}));
     app.add_flag("--split", options->split, ".glb: beside it one file a level: OUT.lod0.glb, OUT.lod1.glb, ...");
     app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");

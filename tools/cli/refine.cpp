@@ -132,7 +132,7 @@ Run declare_refine(CLI::App& app) {
         "quarter of the way from where they are in the coarser one; at 0 it looks like that one, at 1 it is "
         "the finer.");
     app.add_option("file", options->file, "progressive mesh (.glpm)")->required();
-    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply or .off")->required();
+    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")->required();
     auto* edges = app.add_option("--edges", options->edges, "the finest level with at most so many edges");
     auto* triangles =
         app.add_option("--triangles", options->triangles, "the finest level with at most so many triangles");

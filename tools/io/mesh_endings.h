@@ -8,7 +8,7 @@
 
 namespace glcast {
 
-inline constexpr std::array<std::string_view, 4> mesh_endings = {".glb", ".obj", ".ply", ".off"};
+inline constexpr std::array<std::string_view, 6> mesh_endings = {".glb", ".obj", ".ply", ".off", ".stl", ".3mf"};
 
 inline bool has_mesh_ending(const std::filesystem::path& file) {
     const std::string ending = file.extension().string();

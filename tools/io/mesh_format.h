@@ -50,9 +50,12 @@ std::string glb_bytes(std::span<const Level> levels, Compression compression, co
                       const std::function<void()>& await_errors = {});
 bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
                const PositionGrid* grid = nullptr, const std::function<void()>& await_errors = {});
-bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level);
-bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level);
-bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level);
+bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);
+bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);
+bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);
+
+bool write_stl(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
+bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
 
 [[noreturn]] void refuse(const std::string& why);
 
@@ -60,6 +63,11 @@ std::vector<Level> one_level(Mesh mesh);
 
 /// Where floats lose digits that show: a mesh so far from the origin that its own size is small beside its coordinates.
 bool needs_doubles(const Mesh& mesh);
+/// What to write coordinates relative to where floats are all that a format has: a whole-numbered point where they would
+/// lose digits, else the origin.
+glm::dvec3 origin_of_floats(const Mesh& mesh);
+std::string moved_by(const glm::dvec3& from); ///< "(-4500000, 0, 0)": how a mesh came from there to the origin
+double diagonal(const Mesh& mesh);            ///< of the bounding box
 /// Are all coordinates floats?
 bool floats_hold(const Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -44,6 +45,24 @@ bool needs_doubles(const Mesh& mesh) {
     return std::max({far.x, far.y, far.z}) > 16 * glm::length(hi - lo);
 }
 
+double diagonal(const Mesh& mesh) {
+    const auto [lo, hi] = bounds(mesh);
+    return glm::length(hi - lo);
+}
+
+glm::dvec3 origin_of_floats(const Mesh& mesh) {
+    return needs_doubles(mesh) ? glm::round(centre(mesh)) : glm::dvec3(0);
+}
+
+std::string moved_by(const glm::dvec3& from) {
+    std::string text = "(";
+    for (int k = 0; k < 3; ++k) {
+        char word[32];
+        text.append(k ? ", " : "").append(word, std::to_chars(word, word + sizeof word, 0 - from[k]).ptr);
+    }
+    return text + ")";
+}
+
 bool floats_hold(const Mesh& mesh) {
     return std::ranges::all_of(mesh.positions, [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; });
 }
@@ -58,7 +77,8 @@ namespace {
 
 using Reader = std::vector<Level> (*)(std::string_view, const std::filesystem::path&);
 /// A level to a file of the set, its texture to further ones.
-using Writer = bool (*)(format::FileSet& files, const std::filesystem::path& path, const Level& level);
+using Writer = bool (*)(format::FileSet& files, const std::filesystem::path& path, const Level& level,
+                        const WriteOptions& options);
 
 struct Format {
     const char* extension;
@@ -73,7 +93,8 @@ constexpr Format formats[] = {
     {".obj", format::read_obj, format::write_obj, false},
     {".ply", format::read_ply, format::write_ply, false},
     {".off", format::read_off, format::write_off, false},
-    {".stl", format::read_stl, nullptr, false},
+    {".stl", format::read_stl, format::write_stl, false},
+    {".3mf", nullptr, format::write_3mf, false},
 };
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -81,7 +102,7 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .gltf or .stl");
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf (to write) or .gltf (to read)");
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -185,6 +206,7 @@ void write_split(format::FileSet& files, const std::filesystem::path& path, std:
 std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
+        if (!f.read) format::refuse(std::string(f.extension) + " is written only");
         std::vector<Level> levels = f.read(read_file(path), path);
         for (Level& level : levels) tidy(level);
         return levels;
@@ -197,6 +219,14 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
 
 Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels(path).front().mesh); }
 
+std::string note_on(const std::filesystem::path& path, const Level& level) {
+    const Format& f = format_of(path);
+    const glm::dvec3 from = format::origin_of_floats(level.mesh);
+    if ((f.write != format::write_stl && f.write != format::write_3mf) || from == glm::dvec3(0)) return {};
+    return path.string() + ": the model is moved by " + format::moved_by(from) +
+           ", as floats would lose its digits where it is";
+}
+
 std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }
 
 void round_levels(std::span<Level> levels, Compression compression) {
@@ -208,9 +238,6 @@ void round_levels(std::span<Level> levels, Compression compression) {
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options) {
     const Format& f = format_of(path);
-    if (!f.write && !f.many_levels)
-        format::refuse("cannot write '" + path.string() + "': " + f.extension +
-                       " is read only; take .glb, .obj, .ply or .off");
     if (!f.many_levels && (options.split || options.compression != Compression::none))
         format::refuse("only .glb is compressed or split");
     if (levels.empty()) throw std::logic_error("no levels to write");
@@ -219,7 +246,7 @@ std::vector<std::filesystem::path> write_levels(const std::filesystem::path& pat
         format::write_glb(files.mesh(path), levels, options.compression, nullptr, options.await_errors);
         if (options.split) write_split(files, path, levels, options.compression);
     } else
-        for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k]);
+        for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k], options);
     return files.commit();
 }
 

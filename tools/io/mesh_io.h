@@ -1,10 +1,11 @@
-// Reading and writing meshes: .glb (tinygltf), .obj, .ply, .off; .stl is read only.
+// Reading and writing meshes: .glb (tinygltf), .obj, .ply, .off, .stl; .3mf (lib3mf) is written only.
 #pragma once
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
 
+#include "tools/io/units.h"
 #include "tools/mesh/level.h"
 
 namespace glcast {
@@ -29,6 +30,7 @@ struct WriteOptions {
     /// .glb: called once all but the errors has been taken from the levels, which may still be measured until it
     /// returns. What it throws is passed on, and nothing is written.
     std::function<void()> await_errors = {};
+    std::size_t units = millimetre; ///< .stl, .3mf: what a unit of the model is, of length_units
 };
 
 /// Leaves of the levels what a compressed file will hold, so that what is measured afterwards is true of the file. No
@@ -41,6 +43,9 @@ void round_levels(std::span<Level> levels, Compression compression);
 /// std::runtime_error. Returns the files written: meshes in the order of the levels, then what belongs to them.
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options = {});
+
+/// A line on what a format cannot hold of the level as it is, or nothing: .stl and .3mf of a mesh far from the origin.
+std::string note_on(const std::filesystem::path& path, const Level& level);
 
 /// Bytes of the level as a .glb of its own. Throws as write_levels does.
 std::uint64_t glb_size(const Level& level);

@@ -33,7 +33,7 @@ void add_vertices(Gather& out, const Mesh& mesh, const std::vector<glm::vec3>& n
 } // namespace
 
 /// Positions stay one a vertex: along a seam only texture coordinates differ, at a crease only normals.
-bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level) {
+bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&) {
     const Mesh& mesh = level.mesh;
     const bool textured = !level.texture.empty(), own = !level.wedges.normals.empty();
     const std::vector<glm::vec3>& normals = own ? level.wedges.normals : mesh.normals;

@@ -3,7 +3,7 @@
 #include "tools/io/text_cursor.h"
 
 namespace glcast::format {
-bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level) {
+bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&) {
     const Mesh& mesh = level.mesh;
     Gather out(files.mesh(path));
     const bool colours = !mesh.colours.empty();

@@ -21,7 +21,7 @@ std::array<glm::vec3, 3> in_bytes(std::array<glm::vec3, 3> colours) {
 
 /// Texture coordinates, and normals and colours of wedges, belong to corners, as MeshLab writes them: the mesh stays
 /// as it is.
-bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level) {
+bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&) {
     const Mesh& mesh = level.mesh;
     const bool textured = !level.texture.empty();
     PictureNames names;

@@ -221,7 +221,7 @@ void Run::write(const std::filesystem::path& output, const std::function<void()>
                                                         if (!await_errors) return;
                                                         await_errors();
                                                         watch = {};
-                                                    }});
+                                                    }, options.units});
     made.seconds.write = watch.seconds();
 }
 

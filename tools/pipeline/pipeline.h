@@ -30,6 +30,7 @@ struct PipelineOptions {
     std::vector<ErrorLimit> max_error;
     int texture = 0;                             ///< texels along an edge of each level's atlas; 0: none
     Compression compression = Compression::none; ///< .glb alone
+    std::size_t units = millimetre; ///< .stl, .3mf: what a unit of the model is, of length_units
     bool split = false;                          ///< WriteOptions::split
     std::filesystem::path progressive; ///< .glpm or .pm to write too; empty: none. Its levels are not fitted.
     CheckDepth check = CheckDepth::topology;

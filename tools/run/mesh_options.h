@@ -16,7 +16,7 @@ inline constexpr MeshOption mesh_options[] = {
     {"--method", true},  {"--exterior", true},  {"--sheet-thickness", true}, {"--close-gaps", true},
     {"--edges", true},   {"--triangles", true}, {"--ratio", true},           {"--max-error", true},
     {"--texture", true}, {"--compress", true},  {"--split", false},          {"--pm", true},
-    {"--check", false},
+    {"--check", false}, {"--units", true},
 };
 
 } // namespace glcast::run

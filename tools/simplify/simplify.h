@@ -35,7 +35,7 @@ struct SimplifyOptions {
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
-/// keep it manifold allow; colours and normals follow the surface. Needs a closed two-manifold: throws
+/// keep it manifold, and from passing through itself where it did not, allow; colours and normals follow the surface. Needs a closed two-manifold: throws
 /// std::runtime_error on anything else, and on a target below 0 or a ratio above 1. Where the mesh is small
 /// enough already it comes back as it is. Every colour is one that the mesh has. The same mesh gives the same
 /// result, bit for bit, on any number of threads.

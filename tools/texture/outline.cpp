@@ -22,10 +22,12 @@ constexpr double near_enough = 0.05; // samples: mean distance of the surface
 constexpr std::size_t most_triangles = 30'000;
 
 constexpr int rounds = 3;
-constexpr double surface_importance = 2;   // of all triangles, against outlines
-constexpr double inertia = 0.02;           // of what a vertex's part of the surface weighs
-constexpr double beside = 0.1;             // samples
-constexpr double farthest_move = 1;        // samples, a round
+constexpr double surface_importance = 2; // of all triangles, against outlines
+constexpr double inertia = 0.02;         // of what a vertex's part of the surface weighs
+constexpr double beside = 0.1;           // samples
+constexpr double farthest_move = 1;      // samples, a round,
+constexpr double farthest_of_mean =
+    2; // and so many mean distances of the surface: the worst places stay as near
 constexpr float least_cosine = 0.5f;       // of a triangle's normals before and after
 constexpr double flattest_edge = 0.01;     // radians
 constexpr double farther_than_surface = 3; // outlines are sought in so many times the reach
@@ -201,10 +203,10 @@ class Undoing {
     std::vector<int> halved; ///< by vertex: how often
 };
 
-void move(Mesh& mesh, const std::vector<glm::dvec3>& by, double sample) {
+void move(Mesh& mesh, const std::vector<glm::dvec3>& by, double farthest, double sample) {
     for (std::size_t v = 0; v < by.size(); ++v) {
         const double far = glm::length(by[v]);
-        mesh.positions[v] += by[v] * (sample * (far > farthest_move ? farthest_move / far : 1));
+        mesh.positions[v] += by[v] * (sample * (far > farthest ? farthest / far : 1));
     }
 }
 
@@ -214,8 +216,8 @@ double mean_surface_importance(std::span<const Residual> residuals, std::size_t 
     return sum / double(vertices);
 }
 
-/// How far the surface is from what was captured, in samples; where it is near, there is nothing to mend, and moves
-/// would follow the noise of rims.
+/// How far the surface is from what was captured, in samples; where it is near, there is nothing to mend, and
+/// moves would follow the noise of rims.
 double mean_height(std::span<const Residual> residuals) {
     double sum = 0, all = 0;
     for (const Residual& r : residuals)
@@ -231,12 +233,13 @@ bool fit_outlines(Mesh& mesh, const CapturedSurface& captured) {
     for (int round = 0; round < rounds; ++round) {
         const std::vector<glm::vec3> normals = triangle_normals(mesh);
         const std::vector<Residual> residuals = Residuals(mesh, captured, neighbours, normals).all();
-        if (round == 0 && mean_height(residuals) < near_enough) return false;
+        const double mean = mean_height(residuals);
+        if (round == 0 && mean < near_enough) return false;
         const std::size_t vertices = mesh.positions.size();
         Undoing undoing(mesh, normals);
         move(mesh,
              least_squares_moves(residuals, vertices, inertia * mean_surface_importance(residuals, vertices)),
-             captured.sample());
+             std::min(farthest_move, farthest_of_mean * mean), captured.sample());
         undoing.run();
     }
     return true;

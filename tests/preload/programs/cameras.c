@@ -37,7 +37,6 @@ static void left_handed(int box) {
     const double n = near_of(box), f = far_of(box);
     const double m[16] = {4, 0, 0, 0, 0, 4, 0, 0, 0, 0, (f + n) / (f - n), 1, 0, 0, -2 * f * n / (f - n), 0};
     glMultMatrixd(m);
-    glScaled(1, 1, -1);
 }
 
 static void colour(int box) { glColor3f(box == 0, box == 1, box == 2); }
@@ -121,18 +120,19 @@ static void clip_positions(int box, int arrays, int bend) {
 }
 
 static void draw_under(int box) {
+    const int is_left_handed = IS("left_handed") || IS("upside_down_left_handed");
     const int in_modelview = IS("ortho_in_modelview") || IS("frustum_in_modelview");
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     if (in_modelview) glMatrixMode(GL_MODELVIEW), glLoadIdentity();
-    if (IS("upside_down_blit") || IS("upside_down_quad") || IS("upside_down_unseen")) glScalef(1, -1, 1);
+    if (strncmp(way, "upside_down", 11) == 0) glScalef(1, -1, 1);
     if (IS("ortho_in_modelview"))
         glOrtho(-4, 4, -4, 4, 2, 40);
     else if (IS("parallel_planes") || IS("parallel_whole"))
         glOrtho(-4, 4, -4, 4, near_of(IS("parallel_whole") ? 2 : box), far_of(IS("parallel_whole") ? 0 : box));
     else if (IS("reversed"))
         reversed(box);
-    else if (IS("left_handed"))
+    else if (is_left_handed)
         left_handed(box);
     else if (IS("frustum_in_modelview"))
         perspective(0, 0.25);
@@ -141,6 +141,7 @@ static void draw_under(int box) {
                     IS("own_view") && box == 2 ? 0.5 : 0.25);
     if (IS("view_in_projection")) view();
     if (!in_modelview) glMatrixMode(GL_MODELVIEW), glLoadIdentity();
+    if (is_left_handed) glScaled(1, 1, -1);
     if (!IS("view_in_projection")) view();
     if (IS("whole_matrix") || IS("parallel_whole")) return whole_matrix(box, 0);
     if (IS("stretched_whole")) return whole_matrix(box, 1);
@@ -170,7 +171,7 @@ static void make_framebuffer(void) {
 
 static void show_upside_down(void) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    if (IS("upside_down_blit")) {
+    if (IS("upside_down_blit") || IS("upside_down_left_handed")) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
         glBlitFramebuffer(0, 0, size, size, 0, size, size, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);

@@ -126,7 +126,7 @@ void set_textures(const GlTable& gl, bool fill_0) {
 }
 
 void set_fragments(const GlTable& gl) {
-    gl.Enable(GL_BLEND), gl.BlendFuncSeparate(GL_ONE, GL_DST_COLOR, GL_ZERO, GL_SRC_ALPHA);
+    gl.Enable(GL_BLEND), gl.BlendFuncSeparate(GL_ONE, GL_CONSTANT_ALPHA, GL_ZERO, GL_SRC_ALPHA);
     gl.BlendFunci(1, GL_ZERO, GL_ONE), gl.BlendEquationi(2, GL_MAX), gl.Disablei(GL_BLEND, 3);
     gl.BlendEquationSeparate(GL_FUNC_SUBTRACT, GL_MIN), gl.BlendColor(0.1f, 0.2f, 0.3f, 0.4f);
     gl.Enable(GL_ALPHA_TEST), gl.AlphaFunc(GL_GEQUAL, 0.25f), gl.LogicOp(GL_XOR);
