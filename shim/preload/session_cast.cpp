@@ -5,10 +5,10 @@
 #include <thread>
 
 #include "shim/preload/cast.h"
-#include "shim/preload/meant_program.h"
 #include "shim/preload/own_stack.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
+#include "shim/preload/start.h"
 #include "shim/preload/status.h"
 
 namespace glcast::preload {
@@ -151,7 +151,7 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 bool is_captured_by_a_child() {
     const char* out = std::getenv("GLCAST_OUT");
-    return out && written_since_start(out);
+    return out && written_since_start(absolute_at_start(out));
 }
 
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.

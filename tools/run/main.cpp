@@ -18,6 +18,7 @@
 #include "tools/run/display.h"
 #include "tools/run/options.h"
 #include "tools/run/process.h"
+#include "tools/run/progress.h"
 #include "tools/run/status.h"
 
 namespace {
@@ -85,7 +86,9 @@ int poll_timeout(const Options& options, std::chrono::steady_clock::time_point s
 std::string wait_for_cast(const Options& options, Program& program, StatusPipe& pipe, int signals, Seen& seen,
                           const std::function<void()>& finished) {
     const auto started = std::chrono::steady_clock::now();
+    ProgressLine progress;
     for (;;) {
+        progress.show(seen);
         const bool waiting = !seen.finished(options.captures); // the time limit is for the cast, not for the program
         pollfd events[] = {{pipe.file_descriptor(), POLLIN, 0}, {signals, POLLIN, 0}};
         const int ready = poll(events, 2, waiting ? poll_timeout(options, started) : -1);
@@ -101,6 +104,7 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
         const bool alive = program.alive(); // before the last look at the pipe, so that no line is missed
         pipe.read_into(seen);
         if (waiting && seen.finished(options.captures)) {
+            progress.clear();
             finished();
         }
         if (options.quit && seen.finished(options.captures)) {

@@ -43,12 +43,16 @@ std::string check_box(const std::string& text) {
     if (!v) {
         return "needs six numbers: x0,y0,z0,x1,y1,z1";
     }
+    double edge = 0, far = 0;
     for (int axis = 0; axis < 3; ++axis) {
         if (!((*v)[axis] < (*v)[axis + 3])) {
             return "x0,y0,z0 must be below x1,y1,z1";
         }
+        edge = std::max(edge, (*v)[axis + 3] - (*v)[axis]);
+        far = std::max({far, -(*v)[axis], (*v)[axis + 3]});
     }
-    return {};
+    // The same bounds as in shim/preload/options.cpp: GL works in floats.
+    return far > 1e30 || edge < far * 1e-6 ? "no number may be beyond 1e30, and the corners a millionth of that apart" : "";
 }
 
 /// Rotation, uniform scale and translation only: anything else would bend the normals and the lattice.
@@ -182,10 +186,25 @@ void declare(CLI::App& app, Options& o) {
                        std::to_string(static_cast<int>(default_quit_timeout_seconds)) +
                        " with --quit or --headless, else never)")
         ->check(CLI::Range(0.001, 1e6));
+    app.add_option("--max-seconds", o.most_seconds,
+                   "Give up a cast that takes longer, and let the program run on (default: never)")
+        ->envname("GLCAST_MAX_SECONDS")
+        ->check(CLI::Range(0.001, 1e6));
     app.set_version_flag("--version", "glcast-run " GLCAST_VERSION);
     app.footer("Exit status: 0 captured, 1 not captured (one line says why), 2 wrong usage.");
     app.formatter(std::make_shared<HelpFormat>());
     app.prefix_command();
+}
+
+/// As the kernel reads it: `folder/..` is not taken away, for `folder` may be a link, or not be there.
+std::string absolute(const std::string& file) {
+    std::filesystem::path whole;
+    for (const auto& part : std::filesystem::absolute(file)) {
+        if (part != ".") {
+            whole /= part;
+        }
+    }
+    return whole;
 }
 
 Parsed usage(const std::string& what) {
@@ -232,7 +251,7 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
     }
     if (!options.list_picture.empty()) {
         options.list = true;
-        options.list_picture = std::filesystem::absolute(options.list_picture).lexically_normal();
+        options.list_picture = absolute(options.list_picture);
     }
     options.quit |= options.list;
     if (options.captures < 0) {
@@ -250,7 +269,7 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         options.output = std::filesystem::path(options.program[0]).filename().string() +
                          (options.captures == 1 ? ".exr" : ".%f.exr");
     }
-    options.output = std::filesystem::absolute(options.output).lexically_normal();
+    options.output = absolute(options.output);
     return Parsed::run;
 }
 
@@ -281,6 +300,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
+        {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? number(o.most_seconds) : ""},
         {"GLCAST_STATUS", status_pipe},
     };
 }

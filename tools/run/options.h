@@ -29,6 +29,7 @@ struct Options {
     std::string list_picture; ///< absolute; implies `list`
     std::string include, transparent;
     double timeout_seconds = 0;       ///< 0: no limit
+    double most_seconds = 0;          ///< of one cast; 0: no limit
     std::vector<std::string> program; ///< name and arguments
 };
 

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/time.h>
+#include <unistd.h>
 #ifdef __x86_64__
 #include <xmmintrin.h>
 #endif
@@ -159,6 +160,30 @@ static int interrupted(int unused) {
     return failed ? failed : strange;
 }
 
+/* Three frames, each of so many thousand triangles, call by call. */
+static int heavy(int thousands) {
+    for (int i = 0; i < 3; ++i) {
+        look_at_chiral(120);
+        glBegin(GL_TRIANGLES);
+        for (int k = 0; k < 1000 * thousands; ++k) {
+            const float x = k % 1000 * 0.002f, y = k / 1000 % 1000 * 0.002f;
+            glNormal3f(0, 0, 1);
+            glVertex3f(x, y, 0), glVertex3f(x + 0.002f, y, 1), glVertex3f(x, y + 0.002f, 0);
+        }
+        glEnd();
+        glXSwapBuffers(display, window);
+    }
+    return 0;
+}
+
+/* Goes to another folder before its first frame ends. */
+static int moves(int unused) {
+    (void)unused;
+    if (chdir("elsewhere")) return 73;
+    draw_frames();
+    return 0;
+}
+
 static const struct {
     const char* name;
     int (*run)(int kib);
@@ -170,7 +195,9 @@ static const struct {
              {"flushing", flushing},
              {"single", single},
              {"flags", flags},
-             {"interrupted", interrupted}};
+             {"interrupted", interrupted},
+             {"heavy", heavy},
+             {"moves", moves}};
 
 int main(int argc, char** argv) {
     XInitThreads();
