@@ -13,6 +13,7 @@
 #include "tools/pipeline/textures.h"
 #include "tools/reconstruct/captured_surface.h"
 #include "tools/texture/outline.h"
+#include "tools/texture/wedge_fit.h"
 
 namespace glcast {
 namespace {
@@ -68,6 +69,7 @@ class Run {
     void make_surface(const std::filesystem::path& capture);
     void make_levels();
     void lay_outlines();
+    void fit_corners();
     void bake_textures();
     void measure();
     void measure_and_write(const std::filesystem::path& output);
@@ -103,8 +105,7 @@ void Run::make_surface(const std::filesystem::path& capture) {
     made.sample = made.info.box.size / made.info.n;
     ReconstructOptions how = options.surface;
     how.complete_layers = made.info.layers == Layers::complete;
-    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how, &made.surface,
-                                       options.texture ? &captured : nullptr),
+    made.levels.push_back({reconstruct(std::move(hits), made.info.box, how, &made.surface, &captured),
                            "level 0",
                            {},
                            made.sample,
@@ -152,6 +153,16 @@ void Run::lay_outlines() {
         fit_outlines(made.levels[k].mesh, captured);
         made.checks[k] = check_mesh(made.levels[k].mesh, options.check);
     }
+    made.seconds.simplify += watch.seconds();
+}
+
+/// Normals and colours of all but the full surface, and not of what a progressive mesh holds.
+void Run::fit_corners() {
+    if (!options.progressive.empty()) return;
+    const Stopwatch watch;
+    WedgeOptions how;
+    if (options.texture) how.colour = WedgeOptions::any_colour; // the texture has them
+    for (std::size_t k = 1; k < made.levels.size(); ++k) fit_wedges(made.levels[k], captured, how);
     made.seconds.simplify += watch.seconds();
 }
 
@@ -233,6 +244,7 @@ MeshedCapture mesh_capture(const std::filesystem::path& capture, const PipelineO
     run.make_surface(capture);
     run.make_levels();
     run.lay_outlines();
+    run.fit_corners();
     run.bake_textures();
     run.measure();
     return run.take();
@@ -245,6 +257,7 @@ MeshedCapture mesh_capture(const std::filesystem::path& capture, const std::file
     run.make_surface(capture);
     run.make_levels();
     run.lay_outlines();
+    run.fit_corners();
     run.bake_textures();
     run.measure_and_write(output);
     return run.take();

@@ -6,7 +6,7 @@ std::vector<TextureReport> texture_levels(std::span<Level> levels, const Capture
                                           int size) {
     std::vector<TextureReport> reports(levels.size());
     for (std::size_t k = 0; k < levels.size(); ++k)
-        levels[k].texture = bake_texture(levels[k].mesh, captured, {.size = size}, &reports[k]);
+        bake_texture(levels[k], captured, {.size = size}, &reports[k]);
     return reports;
 }
 
