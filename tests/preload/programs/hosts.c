@@ -176,6 +176,43 @@ static int heavy(int thousands) {
     return 0;
 }
 
+static long memory_kib(const char* what) {
+    char line[200];
+    long kib = 0;
+    FILE* file = fopen("/proc/self/status", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, what, strlen(what)) == 0) sscanf(line + strlen(what), ": %ld", &kib);
+    if (file) fclose(file);
+    return kib;
+}
+/* Fills a texture of a MiB so often in a frame, and draws from it each time. Prints its memory in KiB: most,
+ * and then. */
+static int fill_often(int count, GLuint texture) {
+    static unsigned char image[512][512][4];
+    memset(image, 99, sizeof image);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glEnable(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 512, 512, 0, GL_RGBA, GL_UNSIGNED_BYTE, image);
+    for (int frame = 0; frame < 3; ++frame) {
+        look_at_chiral(120);
+        for (int i = 0; i < count; ++i) {
+            image[0][0][0] = i;
+            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 512, 512, GL_RGBA, GL_UNSIGNED_BYTE, image);
+            glBegin(GL_TRIANGLES);
+            glVertex3f(0, 0, 0), glVertex3f(1, 0, i * 0.001f), glVertex3f(0, 1, 0);
+            glEnd();
+        }
+        draw_chiral();
+        glXSwapBuffers(display, window);
+    }
+    printf("memory %ld %ld\n", memory_kib("VmHWM"), memory_kib("VmRSS"));
+    return 0;
+}
+
+static int fillings(int count) { return fill_often(count, 1); }
+static int unnamed_fillings(int count) { return fill_often(count, 0); }
+
 /* Goes to another folder before its first frame ends. */
 static int moves(int unused) {
     (void)unused;
@@ -197,7 +234,9 @@ static const struct {
              {"flags", flags},
              {"interrupted", interrupted},
              {"heavy", heavy},
-             {"moves", moves}};
+             {"moves", moves},
+             {"fillings", fillings},
+             {"unnamed_fillings", unnamed_fillings}};
 
 int main(int argc, char** argv) {
     XInitThreads();
