@@ -28,7 +28,7 @@ bool adds(const FragmentState& state) { return state.destination == GL_ONE && st
 
 bool FragmentState::blends() const {
     const bool replaces = source == GL_ONE && destination == GL_ZERO && equation == GL_FUNC_ADD;
-    return blend && !replaces;
+    return blend && !logic_op && !replaces;
 }
 
 bool FragmentState::only_tints() const {

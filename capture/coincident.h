@@ -35,6 +35,10 @@ struct FragmentState {
     GLenum depth_function = GL_LESS, stencil_function = GL_ALWAYS;
     GLenum source = GL_ONE, destination = GL_ZERO, source_alpha = GL_ONE, destination_alpha = GL_ZERO;
     GLenum equation = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
+    bool logic_op = false; ///< GL_COLOR_LOGIC_OP, which takes the place of blending
+    GLenum logic_operation = GL_COPY;
+    float constant[4] = {0, 0, 0, 0}; ///< glBlendColor
+    float clear[4] = {0, 0, 0, 0};    ///< glClearColor
 
     bool blends() const; ///< and not in a way that replaces
     /// Nothing but what is behind, tinted: a light map or a shadow, and no surface of its own.

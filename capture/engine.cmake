@@ -14,10 +14,11 @@ add_library(glcast_engine STATIC
     forced_calls.cpp
     forced_caps.cpp
     forced_state.cpp
-    forced_table.cpp)
+    forced_table.cpp
+    solidity.cpp)
 target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_view glcast_options)
 
 # Box, views and images: what the engine makes and the reconstruction takes.
-add_library(glcast_view STATIC reference_views.cpp view.cpp)
+add_library(glcast_view STATIC camera.cpp reference_views.cpp view.cpp)
 target_link_libraries(glcast_view PUBLIC $<BUILD_INTERFACE:glcast_options>)
 glcast_package(glcast_view HEADERS view.h view_image.h)

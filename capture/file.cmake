@@ -14,3 +14,8 @@ set_target_properties(glcast_capture_file PROPERTIES CXX_VISIBILITY_PRESET hidde
 # tinyexr is not ours: no warnings from it, and no assert may end the host program.
 set_source_files_properties(exr_compress.cpp PROPERTIES COMPILE_OPTIONS "-w"
     COMPILE_DEFINITIONS "TINYEXR_USE_OPENMP=0;TINYEXR_USE_THREAD=0;TINYEXR_USE_MINIZ=0;NDEBUG")
+
+# Names of keys, signals and captures, which glcast-run understands as the shim does.
+add_library(glcast_names STATIC key_names.cpp key_names.h output_name.cpp output_name.h)
+target_link_libraries(glcast_names PUBLIC glcast_options)
+set_target_properties(glcast_names PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)

@@ -27,6 +27,9 @@ void note_cap(GLenum cap, bool on) {
     case GL_BLEND:
         fragments.blend = on, state().apply_fragments();
         break;
+    case GL_COLOR_LOGIC_OP:
+        fragments.logic_op = on, state().apply_fragments();
+        break;
     case GL_DEPTH_TEST:
         fragments.depth_test = on, state().apply_order();
         break;
@@ -125,6 +128,16 @@ void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum sour
 void APIENTRY blend_func_indexed(GLuint buffer, GLenum source, GLenum destination) {
     if (buffer == 0) blend_func(source, destination);
 }
+void APIENTRY blend_colour(GLclampf red, GLclampf green, GLclampf blue, GLclampf alpha) {
+    real().BlendColor(red, green, blue, alpha);
+    float* constant = program().fragments.constant;
+    constant[0] = red, constant[1] = green, constant[2] = blue, constant[3] = alpha;
+    state().apply_alpha();
+}
+void APIENTRY logic_op(GLenum operation) {
+    program().fragments.logic_operation = operation;
+    state().apply_alpha();
+}
 void APIENTRY blend_equation(GLenum equation) { blend_equation_separate(equation, equation); }
 void APIENTRY blend_equation_separate(GLenum equation, GLenum equation_alpha) {
     program().fragments.equation = equation;
@@ -160,7 +173,11 @@ void APIENTRY stencil_func_separate(GLenum face, GLenum function, GLint referenc
     if (face != GL_BACK) stencil_func(function, reference, mask);
 }
 void APIENTRY clear(GLbitfield buffers) { state().cleared(buffers); }
-void APIENTRY clear_color(GLclampf, GLclampf, GLclampf, GLclampf alpha) { program().clear_alpha = alpha; }
+void APIENTRY clear_color(GLclampf red, GLclampf green, GLclampf blue, GLclampf alpha) {
+    float* clear = program().fragments.clear;
+    clear[0] = red, clear[1] = green, clear[2] = blue, clear[3] = alpha;
+    state().apply_alpha();
+}
 void APIENTRY colour_mask(GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha) {
     program().colour_mask = {red, green, blue, alpha};
     state().apply_fragments();

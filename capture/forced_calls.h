@@ -29,6 +29,8 @@ void APIENTRY blend_func(GLenum source, GLenum destination);
 void APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_alpha,
                                   GLenum destination_alpha);
 void APIENTRY blend_func_indexed(GLuint buffer, GLenum source, GLenum destination);
+void APIENTRY blend_colour(GLclampf red, GLclampf green, GLclampf blue, GLclampf alpha);
+void APIENTRY logic_op(GLenum operation);
 void APIENTRY blend_equation(GLenum equation);
 void APIENTRY blend_equation_separate(GLenum equation, GLenum equation_alpha);
 void APIENTRY depth_func(GLenum function);

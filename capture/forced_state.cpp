@@ -1,5 +1,10 @@
 #include "capture/forced_state.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "capture/solidity.h"
+
 namespace glcast {
 
 GLenum mapped_material(GLenum name) {
@@ -33,7 +38,9 @@ void restore_colour_buffer(ForcedState::Values& now, const ForcedState::Values& 
     now.fragments.equation_alpha = old.fragments.equation_alpha;
     now.colour_mask = old.colour_mask;
     now.buffer_shows = old.buffer_shows;
-    now.clear_alpha = old.clear_alpha;
+    now.fragments.logic_operation = old.fragments.logic_operation;
+    std::copy(std::begin(old.fragments.constant), std::end(old.fragments.constant), now.fragments.constant);
+    std::copy(std::begin(old.fragments.clear), std::end(old.fragments.clear), now.fragments.clear);
 }
 
 /// Tracked values that PopAttrib brings back, by the bits of the mask.
@@ -46,6 +53,7 @@ void restore(ForcedState::Values& now, const ForcedState::Values& old, GLbitfiel
     }
     if (mask & (GL_ENABLE_BIT | GL_COLOR_BUFFER_BIT)) {
         fragments.blend = old_fragments.blend;
+        fragments.logic_op = old_fragments.logic_op;
         now.alpha_test = old.alpha_test;
     }
     if (mask & (GL_ENABLE_BIT | GL_DEPTH_BUFFER_BIT)) fragments.depth_test = old_fragments.depth_test;
@@ -95,18 +103,38 @@ bool ForcedState::shows() const {
     return colour && program.buffer_shows && !program.own_program;
 }
 
+namespace {
+
+/// Of the program's alpha test and that of its blending the stricter, where one test can tell; else the program's.
+void set_alpha_test(const GlTable& gl, const ForcedState::Values& program, Solidity solid) {
+    const bool high = solid == Solidity::by_high_alpha, low = solid == Solidity::by_low_alpha;
+    GLenum function = high ? GL_GEQUAL : GL_LEQUAL;
+    GLclampf reference = 0.5f;
+    const GLenum own = program.alpha_function;
+    const bool own_is_high = own == GL_GREATER || own == GL_GEQUAL, own_is_low = own == GL_LESS || own == GL_LEQUAL;
+    const bool own_is_stricter = (high && own_is_high && program.alpha_reference >= reference) ||
+                                 (low && own_is_low && program.alpha_reference <= reference);
+    const bool is_other = !(high && own_is_high) && !(low && own_is_low);
+    if (program.alpha_test && own != GL_ALWAYS && (is_other || own_is_stricter))
+        function = own, reference = program.alpha_reference;
+    gl.AlphaFunc(function, reference);
+    gl.Enable(GL_ALPHA_TEST);
+}
+
+} // namespace
+
 void ForcedState::apply_alpha() const {
     // The normal pass has equal depth to go by; what a peel pass finds is tested by the colour pass after it.
-    const bool keeps_test = kind == PassKind::colour || kind == PassKind::blend;
-    const bool solid = kind != PassKind::colour || !program.fragments.only_tints();
-    if (!shows() || !solid) {
+    const bool finds_depth = kind == PassKind::colour || kind == PassKind::peel;
+    const Solidity solid = finds_depth ? solidity(program.fragments) : Solidity::always;
+    const bool by_alpha = solid == Solidity::by_high_alpha || solid == Solidity::by_low_alpha;
+    if (!shows() || solid == Solidity::never) {
         real.AlphaFunc(GL_NEVER, 0);
         real.Enable(GL_ALPHA_TEST);
-    } else if (keeps_test && program.alpha_test) {
+    } else if (kind == PassKind::colour && by_alpha) {
+        set_alpha_test(real, program, solid);
+    } else if ((kind == PassKind::colour || kind == PassKind::blend) && program.alpha_test) {
         real.AlphaFunc(program.alpha_function, program.alpha_reference);
-        real.Enable(GL_ALPHA_TEST);
-    } else if (kind == PassKind::colour && program.fragments.blends()) {
-        real.AlphaFunc(GL_GEQUAL, 0.5f);
         real.Enable(GL_ALPHA_TEST);
     } else {
         real.Disable(GL_ALPHA_TEST);
@@ -200,7 +228,7 @@ void ForcedState::cleared(GLbitfield buffers) {
     const auto& mask = program.colour_mask;
     const bool alpha_alone = mask.alpha && !mask.red && !mask.green && !mask.blue;
     if (kind != PassKind::blend || !(buffers & GL_COLOR_BUFFER_BIT) || !alpha_alone) return;
-    real.ClearColor(0, 0, 0, program.clear_alpha);
+    real.ClearColor(0, 0, 0, program.fragments.clear[3]);
     real.Clear(GL_COLOR_BUFFER_BIT);
 }
 

@@ -48,7 +48,6 @@ class ForcedState {
             GLboolean red = GL_TRUE, green = GL_TRUE, blue = GL_TRUE, alpha = GL_TRUE;
         } colour_mask;
         bool buffer_shows = true; ///< colours reach a buffer at all
-        GLclampf clear_alpha = 0;
         bool own_program = false; ///< a program of the program's is in use; noted in peel passes
         GLenum matrix_mode = GL_MODELVIEW;
     };

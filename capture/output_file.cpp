@@ -40,13 +40,28 @@ OutputFile::OutputFile(std::string target) : path(std::move(target)) {
     next = first_open;
     if (next) next->previous = this;
     first_open = this;
-    struct stat info;
+    struct stat info {};
     if (path.empty() || path.back() == '/')
         message = "cannot write '" + path + "': not a file name";
-    else if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
-        fail("cannot write", S_ISDIR(info.st_mode) ? EISDIR : EEXIST);
-    else
+    else if (stat(path.c_str(), &info) != 0)
         open_temporary();
+    else if (S_ISDIR(info.st_mode))
+        fail("cannot write", EISDIR);
+    else if (!S_ISREG(info.st_mode))
+        message = "cannot write '" + path + "': it is a device or a pipe, and no file";
+    else if (open_temporary())
+        keep_rights(info);
+}
+
+/// Whoever could not read what is replaced cannot read what comes.
+void OutputFile::keep_rights(const struct stat& before) {
+    mode_t mode = before.st_mode & 0777;
+    struct stat now {};
+    if (fstat(descriptor, &now) == 0 && (now.st_uid != before.st_uid || now.st_gid != before.st_gid) &&
+        fchown(descriptor, before.st_uid, before.st_gid) != 0 &&
+        fchown(descriptor, uid_t(-1), before.st_gid) != 0)
+        mode &= 0707; // not for another group
+    if (fchmod(descriptor, mode) != 0) fail("cannot write", errno);
 }
 
 OutputFile::~OutputFile() {

@@ -5,12 +5,14 @@
 #include <span>
 #include <string>
 
+struct stat;
+
 namespace glcast {
 
 /// Written without a name where the file system can do that (O_TMPFILE), else under a temporary name beside
 /// the target; commit() puts it in place by rename. Without commit() nothing is left, and a file that was
-/// there stays as it was. All functions return false on failure, with one line in error(). Throws nothing but
-/// std::bad_alloc.
+/// there stays as it was; what replaces it has its rights. A link is replaced, and its target left alone. All
+/// functions return false on failure, with one line in error(). Throws nothing but std::bad_alloc.
 class OutputFile {
   public:
     explicit OutputFile(std::string path);
@@ -34,6 +36,7 @@ class OutputFile {
     friend void discard_unfinished_files();
     bool put_in_place();
     bool open_temporary();
+    void keep_rights(const struct stat& before);
     bool name_unnamed();
     bool fail(const char* what, int code);
 
@@ -44,8 +47,9 @@ class OutputFile {
     OutputFile *next = nullptr, *previous = nullptr; ///< all that are open, for discard_unfinished_files
 };
 
-/// For a program that ends by a signal: waits for commits under way, removes every other temporary, and lets no commit happen
-/// afterwards (it would wait for ever, so call _exit next). From a thread, not from a signal handler.
+/// For a program that ends by a signal: waits for commits under way, removes every other temporary, and lets
+/// no commit happen afterwards (it would wait for ever, so call _exit next). From a thread, not from a signal
+/// handler.
 void discard_unfinished_files();
 
 /// Can a file be made at `path`? Empty when yes, else why not, one line. Leaves nothing behind.

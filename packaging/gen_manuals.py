@@ -16,10 +16,12 @@ DESCRIPTION_COLUMN = 30  # CLI11's
 EXIT_STATUS = {
     "glcast": [("0", "done"), ("1", "not done; one line on standard error says why, and nothing was written"), ("2", "wrong usage"),
                ("130", "ended by Ctrl-C (143: SIGTERM, 129: SIGHUP); nothing is left half written")],
-    "glcast-run": [("0", "captured"), ("1", "not captured; one line on standard error says why"), ("2", "wrong usage")],
+    "glcast-run": [("0", "cast, and the mesh made when -o names one"), ("1", "not cast; one line on standard error says why"),
+                   ("2", "wrong usage")],
 }
 EXAMPLES = {
     "glcast-run": [
+        ("From a program to a mesh in one command:", "glcast-run -o gears.glb --headless --quit -- glxgears"),
         ("Cast a program that draws to your screen, then go on with it:", "glcast-run -o gears.exr -- glxgears"),
         ("The same without a screen, ended when the cast is there:",
          "glcast-run -o gears.exr -n 256 --headless --quit -- glxgears"),
@@ -112,6 +114,8 @@ def read_page(program, command):
     for line in lines[2:]:
         if line in lists:
             section = line
+        elif re.fullmatch(r"[A-Z][a-z ]*:", line):  # a group of options
+            section = "Options:"
         elif not line:
             section = ""
         elif section:

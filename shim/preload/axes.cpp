@@ -60,7 +60,7 @@ std::optional<glm::dmat4> model_to_eye(const glm::dmat4& modelview, bool mirrore
 
 glm::dmat4 choose_eye_to_capture(const ViewAxes& view, const Options& options) {
     if (options.frame_matrix == FrameMatrix::given) return options.given_matrix;
-    if (options.frame_matrix == FrameMatrix::eye) return glm::dmat4(1.0);
+    if (options.frame_matrix == FrameMatrix::eye) return eye_space(view.mirrored);
     if (view.base_modelview) {
         // As it is where it can be: no rounding.
         if (!view.mirrored && is_similarity(*view.base_modelview)) return glm::inverse(*view.base_modelview);
@@ -69,11 +69,6 @@ glm::dmat4 choose_eye_to_capture(const ViewAxes& view, const Options& options) {
     if (options.frame_matrix == FrameMatrix::base)
         throw std::runtime_error("the base modelview has no axes: it flattens or bends space (--frame-matrix base)");
     return eye_space(view.mirrored);
-}
-
-bool is_mirrored(const glm::dmat4& projection, bool depth_reversed) {
-    const double determinant = glm::determinant(projection);
-    return determinant != 0 && (determinant > 0) != depth_reversed;
 }
 
 } // namespace glcast::preload

@@ -11,12 +11,12 @@
 #include <stdexcept>
 
 #include "capture/capture_file.h"
+#include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
-#include "shim/preload/output_name.h"
 #include "shim/preload/patience.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
@@ -147,6 +147,7 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
     std::snprintf(text, sizeof text, "(n=%d, box %.6g wide, layers %d %d %d %s, %d draws, %.2f s)", info.n,
                   info.box.size, report.layer_count[0], report.layer_count[1], report.layer_count[2],
                   layers_name(report.layers), report.draws, seconds.count());
+    tell("figures", text);
     return {CastOutcome::captured, "captured frame " + std::to_string(info.frame) + " of " + info.program +
                                        ": " + path + " " + text};
 }
@@ -187,7 +188,7 @@ class Cast {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
             siblings.enter(part);
-            scenes.push_back(analyse(*part.frame, gl));
+            scenes.push_back(analyse(*part.frame, gl, options.view_angle));
         }
         candidates = merge(scenes, [&](int a, int b) {
             return record::share_objects(*parts[a].context->shadow, *parts[b].context->shadow);
@@ -232,7 +233,10 @@ class Cast {
     }
 
     DrawFunction drawing(const Candidate& candidate, Wanted wanted) const {
-        wanted.transparent = options.transparent;
+        return drawing(candidate, wanted, options.transparent);
+    }
+    DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
+        wanted.transparent = transparent;
         return [this, &candidate, wanted](const GlTable& table) {
             patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
@@ -291,7 +295,7 @@ class Cast {
                                       : c.inset  ? ", an inset"
                                                  : "") +
                                      (c.window.empty() ? "" : ", " + c.window);
-            say("group %s", text.c_str());
+            if (speaks_alone()) say("group %s", text.c_str());
             tell("group", text);
         }
         if (!options.list_picture.empty()) {
@@ -317,15 +321,26 @@ class Cast {
         engine.most_layers = options.most_layers;
         engine.layer_method = options.layer_method;
         engine.use_shaders = options.use_shaders;
-        engine.mirrored_projection = is_mirrored(group.projection, group.depth_reversed);
+        engine.mirrored_projection = group.is_mirrored();
         engine.eye_to_capture =
-            choose_eye_to_capture({group.base_modelview, engine.mirrored_projection}, options);
+            choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
-        if (!engine.box) return patience.over().empty() ? nothing_solid() : failure(patience.over());
+        if (!engine.box && !patience.over().empty()) return failure(patience.over());
+        if (!engine.box) {
+            CastResult nothing = nothing_solid();
+            if (shows_when_kept(candidate, engine)) nothing.held.see_through = nothing.held.solid;
+            return nothing;
+        }
         tell("casting", std::to_string(number));
         return write(candidate, engine);
+    }
+
+    /// It is all see-through, or what is solid of it is nothing.
+    bool shows_when_kept(const Candidate& candidate, const EngineOptions& engine) {
+        if (options.transparent != Transparent::by_alpha) return false;
+        return find_scene_box(gl, drawing(candidate, {}, Transparent::keep), candidate.group, engine).has_value();
     }
 
     /// What is cast, through a capture frame.
@@ -357,6 +372,19 @@ class Cast {
             say_once("solids that the program cuts out of one another as it draws them (OpenCSG) are cast uncut: let it "
                      "cut them before, in OpenSCAD by render() in the script");
         }
+        const Group& group = candidate.group;
+        if (group.guessed_view) {
+            not_understood["draws in clip coordinates, whose field of view nobody tells: 45 degrees guessed"] =
+                group.draws;
+            say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
+                     "--fov DEGREES tells it");
+        }
+        if (group.judged_by_function && options.transparent == Transparent::by_alpha)
+            not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =
+                group.judged_by_function;
+        if (group.with_own_w)
+            not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
+                group.with_own_w;
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
         if (window.unanswered > 0)

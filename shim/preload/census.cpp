@@ -9,6 +9,7 @@ Census& Census::operator+=(const Census& other) {
     foreign_frames += other.foreign_frames;
     solid += other.solid;
     flat += other.flat;
+    see_through += other.see_through;
     lines += other.lines;
     points += other.points;
     pixels += other.pixels;
@@ -66,7 +67,9 @@ std::string advice(const Census& seen) {
         return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast" +
                (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!seen.refused.empty()) return {};
-    if (!more.empty()) return "--include " + more + " casts these";
+    if (!more.empty() && seen.see_through == 0) return "--include " + more + " casts these";
+    if (seen.see_through > 0)
+        return "all that is solid of it is blended so that what is behind shows: --transparent keep casts it";
     if (seen.solid > 0) return "--box can say where to look";
     if (seen.flat > 0) return "--list shows the groups, and --group K casts one";
     if (seen.pixels > 0) return "it paints pictures, no geometry";

@@ -10,6 +10,7 @@ struct Census {
     long foreign_frames = 0; ///< drawn by contexts of OpenGL ES
     long solid = 0;          ///< filled or outlined triangles in depth-tested or perspective drawing
     long flat = 0;           ///< the other triangles
+    long see_through = 0;    ///< of `solid`, those that blending lets the background through
     long lines = 0, points = 0;
     long pixels = 0;  ///< glDrawPixels, glBitmap, glCopyPixels
     long shaders = 0; ///< draws under GLSL or assembly programs

@@ -27,6 +27,9 @@ void add(Group& all, const Group& one) {
     all.outlined += one.outlined;
     all.at_equal_depth += one.at_equal_depth;
     all.at_greater_depth += one.at_greater_depth;
+    all.with_own_w += one.with_own_w;
+    all.judged_by_function += one.judged_by_function;
+    all.guessed_view |= one.guessed_view;
     all.lines += one.lines;
     all.points += one.points;
     all.writes_depth |= one.writes_depth;

@@ -11,9 +11,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <vector>
 
+#include "capture/key_names.h"
 #include "capture/reference_views.h"
-#include "shim/preload/key_names.h"
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "shim/preload/similarity.h"
 #include "shim/preload/start.h"
 
@@ -106,6 +106,13 @@ bool parse_transparent(const std::string& text, Options& options) {
     return text == "keep" || text == "skip";
 }
 
+bool parse_view_angle(const std::string& text, Options& options) {
+    double degrees = 0;
+    if (!parse_number(text, degrees) || !(degrees > 0 && degrees < 180)) return false;
+    options.view_angle = degrees;
+    return true;
+}
+
 bool parse_mask(const std::string& text, Options& options) {
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find(',', at), text.size());
@@ -162,6 +169,7 @@ constexpr Variable variables[] = {
     {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
     {"GLCAST_INCLUDE", "lines, points or lines,points", parse_include},
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
+    {"GLCAST_FOV", "degrees, more than 0 and less than 180", parse_view_angle},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
     {"GLCAST_REFERENCE_VIEWS", "a whole number from 1 to 36, and no GLCAST_BOX with it",
@@ -228,6 +236,8 @@ Options read_options() {
     options.list_picture = absolute_at_start(options.list_picture);
     const std::string& file = options.list ? options.list_picture : options.out;
     if (!file.empty()) options.error = check_output(file);
+    if (!options.list && !file.empty() && options.error.empty() && !file.ends_with(".exr"))
+        options.error = "cannot write " + file + ": a capture is named .exr; glcast-run -o makes meshes";
     options.armed = options.error.empty() && (options.list || !options.out.empty());
     return options;
 }

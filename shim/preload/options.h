@@ -26,7 +26,7 @@ struct Include {
 
 /// When what the program blends is solid.
 enum class Transparent {
-    by_alpha, ///< where its alpha is a half or more
+    by_alpha, ///< where half or less of what is behind shows (capture/solidity.h)
     keep,     ///< always
     skip,     ///< never
 };
@@ -57,6 +57,7 @@ struct Options {
     std::string list_picture; ///< GLCAST_LIST=FILE.png: also a picture of each
     Include include;          ///< GLCAST_INCLUDE: lines, points, or both with a comma between
     Transparent transparent = Transparent::by_alpha; ///< GLCAST_TRANSPARENT: keep, skip
+    std::optional<double> view_angle; ///< GLCAST_FOV: degrees from bottom to top, of what is drawn in clip coordinates
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
     int reference_views = 0; ///< GLCAST_REFERENCE_VIEWS: so many further views beside the capture (capture/reference_views.h)

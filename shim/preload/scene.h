@@ -1,5 +1,8 @@
-// Which draws of a recorded frame belong together. Draws are grouped by framebuffer, viewport and projection; one
-// group is cast (choice.h says which).
+// Which draws of a recorded frame belong together: those that one camera sees through one viewport into one framebuffer,
+// with whatever near and far planes and field of view (capture/camera.h). One group is cast (choice.h says which).
+//
+// The eye space of a group is that of its first draw. Where the matrices of another draw make another one, its modelview
+// matrix is changed while it is drawn (eye_space.h). In a frame with one projection nothing is.
 #pragma once
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -10,6 +13,7 @@
 #include "capture/gl/gl_table.h"
 #include "capture/view.h"
 #include "shim/preload/options.h"
+#include "shim/preload/sight.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -24,9 +28,21 @@ struct Group {
     GLuint framebuffer = 0;
     GLint draw_buffer = 0;
     std::array<GLint, 4> viewport{};
-    glm::dmat4 projection{1.0};
+    glm::dmat4 projection{1.0}; ///< of its first draw
     ProjectionKind kind = ProjectionKind::flat;
+    std::optional<Camera> camera;  ///< in the first draw's matrices
+    std::optional<DepthLine> depth; ///< likewise
+    /// Its eye space is the screen's, for that of the first draw is scaled unevenly, or the modelview holds the projection.
+    bool in_screen_space = false;
+    /// S^-1 where the program's modelview begins with a scale S that belongs to the projection, as glOrtho in it is.
+    glm::dmat4 unscale{1.0};
+    /// Those that its draws are seen by, each once, a few at most; from the group's eye space.
+    std::vector<glm::dmat4> projections;
     bool depth_reversed = false; ///< the greater depth is in front
+    bool turned_round = false;   ///< mirrored on its way to the window (way_to_window.h)
+    bool guessed_view = false;   ///< the program hands over clip coordinates, and nobody tells its field of view
+    long judged_by_function = 0; ///< draws of faces that blend by their colours alone (capture/solidity.h)
+    long with_own_w = 0;         ///< draws of vertices with a w of their own that could not be understood
     bool erased = false;         ///< a clear of the whole viewport came after: nothing of it is seen
     long draws = 0;              ///< of any primitive
     long last_draw = -1;         ///< index into Scene::draws
@@ -48,6 +64,8 @@ struct Group {
     /// Drawn in space, not on the screen.
     bool is_spatial() const { return kind != ProjectionKind::flat; }
     bool same_place(const Group& other) const;
+    /// Its picture in its framebuffer is the mirror image of its eye space.
+    bool is_mirrored() const;
 };
 
 /// What one draw of the frame is.
@@ -59,11 +77,14 @@ struct Draw {
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
     bool mirrors = false;      ///< its modelview turns right hands into left ones
+    int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 
 struct Scene {
     std::vector<Group> groups; ///< in the order of their first draws
     std::vector<Draw> draws;   ///< in the order of the frame
+    std::vector<EyeMap> eye_maps;
     long pixels = 0;           ///< rectangles of pixels
 };
 
@@ -73,8 +94,9 @@ struct Scene {
 /// pruning"). 0 where the group is not drawn so.
 long cutting_draws(const std::vector<Scene>& scenes, const Group& group);
 
-/// Replays the frame in the current context without drawing anything.
-Scene analyse(const record::Frame& frame, const GlTable& gl);
+/// Replays the frame in the current context without drawing anything. `view_angle`: degrees from bottom to top, for
+/// what is handed over in clip coordinates.
+Scene analyse(const record::Frame& frame, const GlTable& gl, std::optional<double> view_angle = std::nullopt);
 
 /// Which draws of a group are played.
 struct Wanted {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace glcast::preload {
 namespace {
@@ -25,7 +26,9 @@ struct PlainDraw<Member, Count, Instances, R (*)(A...)> {
         long primitives = 1;
         if constexpr (Count >= 0) primitives = primitive_count(mode, std::get<Count>(all));
         if constexpr (Instances >= 0) primitives *= std::max<long>(0, std::get<Instances>(all));
-        if (gate->keep(mode, primitives)) (gate->inner.*Member)(arguments...);
+        if (!gate->keep(mode, primitives)) return;
+        (gate->inner.*Member)(arguments...);
+        gate->drawn();
     }
 };
 
@@ -41,7 +44,9 @@ struct MultiDraw<Member, Counts, Number, R (*)(A...)> {
         long primitives = 0;
         for (GLsizei i = 0; i < std::get<Number>(all); ++i)
             primitives += primitive_count(mode, std::get<Counts>(all)[i]);
-        if (gate->keep(mode, primitives)) (gate->inner.*Member)(arguments...);
+        if (!gate->keep(mode, primitives)) return;
+        (gate->inner.*Member)(arguments...);
+        gate->drawn();
     }
 };
 
@@ -50,16 +55,19 @@ template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlT
 struct Rectangle;
 template <auto Member, class R, class... A> struct Rectangle<Member, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
-        if (gate->keep(GL_TRIANGLES, 2)) (gate->inner.*Member)(arguments...);
+        if (!gate->keep(GL_TRIANGLES, 2)) return;
+        (gate->inner.*Member)(arguments...);
+        gate->drawn();
     }
 };
 
 /// A vertex between glBegin and glEnd, however it is given.
-template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+template <auto Member, bool GivesW, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
 struct Vertex;
-template <auto Member, class R, class... A> struct Vertex<Member, R (*)(A...)> {
+template <auto Member, bool GivesW, class R, class... A> struct Vertex<Member, GivesW, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
         ++gate->vertices;
+        if constexpr (GivesW) gate->gives_w = true;
         if (!gate->swallowing) (gate->inner.*Member)(arguments...);
     }
 };
@@ -93,7 +101,7 @@ template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlT
 struct BindFramebuffer;
 template <auto Member, class R, class... A> struct BindFramebuffer<Member, R (*)(A...)> {
     static R APIENTRY call(GLenum target, GLuint name) {
-        if (target != GL_READ_FRAMEBUFFER) gate->framebuffer_bound(name);
+        gate->framebuffer_bound(target, name);
         if (!gate->draws_nothing()) (gate->inner.*Member)(target, name);
     }
 };
@@ -101,14 +109,17 @@ template <auto Member, class R, class... A> struct BindFramebuffer<Member, R (*)
 void APIENTRY begin(GLenum mode) {
     gate->mode = mode;
     gate->vertices = 0;
+    gate->gives_w = false;
     gate->swallowing = !gate->keep(mode, 0);
     if (!gate->swallowing) gate->inner.Begin(mode);
 }
 
 void APIENTRY end() {
     gate->add_primitives(primitive_count(gate->mode, gate->vertices));
-    if (!gate->swallowing) gate->inner.End();
-    gate->swallowing = false;
+    const bool kept = !std::exchange(gate->swallowing, false);
+    if (!kept) return;
+    gate->inner.End();
+    gate->drawn();
 }
 
 /// Mesh modes as those of glBegin.
@@ -117,17 +128,26 @@ GLenum drawn_as(GLenum mesh_mode) {
 }
 
 void APIENTRY eval_mesh_1(GLenum mode, GLint i1, GLint i2) {
-    if (gate->keep(drawn_as(mode), std::max(0, i2 - i1))) gate->inner.EvalMesh1(mode, i1, i2);
+    if (!gate->keep(drawn_as(mode), std::max(0, i2 - i1))) return;
+    gate->inner.EvalMesh1(mode, i1, i2);
+    gate->drawn();
 }
 
 void APIENTRY eval_mesh_2(GLenum mode, GLint i1, GLint i2, GLint j1, GLint j2) {
     const long primitives = 2L * std::max(0, i2 - i1) * std::max(0, j2 - j1);
-    if (gate->keep(drawn_as(mode), primitives)) gate->inner.EvalMesh2(mode, i1, i2, j1, j2);
+    if (!gate->keep(drawn_as(mode), primitives)) return;
+    gate->inner.EvalMesh2(mode, i1, i2, j1, j2);
+    gate->drawn();
 }
 
 void APIENTRY clear(GLbitfield buffers) {
     gate->cleared(buffers);
     if (!gate->draws_nothing()) gate->inner.Clear(buffers);
+}
+
+void APIENTRY blit_framebuffer(GLint x0, GLint y0, GLint x1, GLint y1, GLint to_x0, GLint to_y0, GLint to_x1,
+                              GLint to_y1, GLbitfield buffers, GLenum) {
+    if (buffers & GL_COLOR_BUFFER_BIT) gate->blitted({x0, y0, x1, y1}, {to_x0, to_y0, to_x1, to_y1});
 }
 
 void switch_cap(GLenum cap, bool on) {
@@ -202,16 +222,16 @@ void APIENTRY push_matrix() {
 #define GLCAST_VERTICES(X)                                                                                   \
     GLCAST_FOUR_TYPES(X, Vertex2)                                                                            \
     GLCAST_FOUR_TYPES(X, Vertex3)                                                                            \
-    GLCAST_FOUR_TYPES(X, Vertex4)                                                                            \
     GLCAST_FOUR_TYPES_V(X, Vertex2)                                                                          \
     GLCAST_FOUR_TYPES_V(X, Vertex3)                                                                          \
-    GLCAST_FOUR_TYPES_V(X, Vertex4)                                                                          \
     X(EvalCoord1d)                                                                                           \
     X(EvalCoord1f)                                                                                           \
     X(EvalCoord1dv)                                                                                          \
     X(EvalCoord1fv)                                                                                          \
     X(EvalCoord2d) X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2)                \
         X(ArrayElement) X(ArrayElementEXT)
+
+#define GLCAST_VERTICES_WITH_W(X) GLCAST_FOUR_TYPES(X, Vertex4) GLCAST_FOUR_TYPES_V(X, Vertex4)
 
 #define GLCAST_SCALARS_AND_ARRAYS(X, NAME, SUFFIX)                                                           \
     X(NAME##d##SUFFIX)                                                                                       \
@@ -238,7 +258,7 @@ void APIENTRY push_matrix() {
 #define GLCAST_CLEARS(X)                                                                                     \
     X(ClearBufferfv)                                                                                         \
     X(ClearBufferiv)                                                                                         \
-    X(ClearBufferuiv) X(ClearBufferfi) X(Accum) X(BlitFramebuffer) X(BlitFramebufferEXT) X(Flush) X(Finish)
+    X(ClearBufferuiv) X(ClearBufferfi) X(Accum) X(Flush) X(Finish)
 
 void install_draws(GlTable& table) {
 #define GLCAST_INSTALL(NAME, COUNT, INSTANCES) table.NAME = PlainDraw<&GlTable::NAME, COUNT, INSTANCES>::call;
@@ -257,8 +277,11 @@ void install_draws(GlTable& table) {
 }
 
 void install_vertices(GlTable& table) {
-#define GLCAST_INSTALL(NAME) table.NAME = Vertex<&GlTable::NAME>::call;
+#define GLCAST_INSTALL(NAME) table.NAME = Vertex<&GlTable::NAME, false>::call;
     GLCAST_VERTICES(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+#define GLCAST_INSTALL(NAME) table.NAME = Vertex<&GlTable::NAME, true>::call;
+    GLCAST_VERTICES_WITH_W(GLCAST_INSTALL)
 #undef GLCAST_INSTALL
 #define GLCAST_INSTALL(NAME) table.NAME = Attribute<&GlTable::NAME>::call;
     GLCAST_ATTRIBUTES(GLCAST_INSTALL)
@@ -275,6 +298,7 @@ void install_others(GlTable& table, bool draws_nothing) {
     }
 #undef GLCAST_INSTALL
     table.Clear = clear;
+    table.BlitFramebuffer = table.BlitFramebufferEXT = blit_framebuffer;
     table.Enable = enable;
     table.Disable = disable;
     table.PushAttrib = push_attrib;

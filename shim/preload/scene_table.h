@@ -1,5 +1,6 @@
 // A table that numbers the draws which pass through it, and lets through those that its owner keeps.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "capture/gl/gl_table.h"
@@ -17,13 +18,17 @@ class DrawGate {
     /// `primitives`: triangles, lines or points, as the mode says; 0 for glBegin, which cannot know yet. False:
     /// the draw is swallowed.
     virtual bool keep(GLenum mode, long primitives) = 0;
+    /// A draw that was kept is over.
+    virtual void drawn() {}
     /// What glBegin could not know, at its glEnd.
     virtual void add_primitives(long) {}
     /// glPushMatrix is about to be called.
     virtual void before_push() {}
     /// True: clears, pixel rectangles and framebuffer bindings are swallowed too, so nothing at all is drawn.
     virtual bool draws_nothing() const { return false; }
-    virtual void framebuffer_bound(GLuint) {}
+    virtual void framebuffer_bound(GLenum, GLuint) {}
+    /// glBlitFramebuffer, which is swallowed always: x0 y0 x1 y1 of both images.
+    virtual void blitted(const std::array<GLint, 4>&, const std::array<GLint, 4>&) {}
     /// glClear is about to be called, or would be.
     virtual void cleared(GLbitfield) {}
     /// glDrawPixels, glBitmap or glCopyPixels was called; never solid, and swallowed.
@@ -39,6 +44,7 @@ class DrawGate {
     bool swallowing = false;
     GLenum mode = 0;
     long vertices = 0;
+    bool gives_w = false; ///< some vertex had four coordinates
     bool blend = false;
     struct SavedBlend {
         bool is_saved, blend;

@@ -87,7 +87,7 @@ template <class Work> void guarded(Work&& work) noexcept {
 
 /// The first context that is current.
 void greet(Session& s, const NativeContext& context) {
-    say("hooked %s in %s", context.system->name(), program_name().c_str());
+    if (speaks_alone()) say("hooked %s in %s", context.system->name(), program_name().c_str());
     tell("hooked", context.system->name());
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");

@@ -33,7 +33,7 @@ void frame_without_cast(Session& s, const Census& held) {
 }
 
 void end_program() {
-    say("ending the program, as asked");
+    if (speaks_alone()) say("ending the program, as asked");
     kill(getpid(), SIGTERM);
 }
 
@@ -80,9 +80,9 @@ void finish(Session& s, FrameKey window, long number, const CastResult& result) 
     }
     if (s.told_looks) tell("settled", "");
     if (result.outcome == CastOutcome::failed) {
-        say_once("%s", result.message.c_str());
+        if (speaks_alone()) say_once("%s", result.message.c_str());
         tell("failed", result.message);
-    } else {
+    } else if (speaks_alone()) {
         say("%s", result.message.c_str());
     }
     if (last && result.outcome != CastOutcome::failed && s.options.quit) end_program();
@@ -138,12 +138,12 @@ bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result
         more = s.holding ? s.windows.any_may_follow() : s.windows.others_may_follow(drawable);
     }
     if (s.holding) {
-        if (shown) say("%s", result.message.c_str());
+        if (shown && speaks_alone()) say("%s", result.message.c_str());
         if (!more) settle(s);
         return true;
     }
     if (!shown || !more || !chooses_a_window(s.options)) return false;
-    say("%s", result.message.c_str());
+    if (speaks_alone()) say("%s", result.message.c_str());
     hold(s);
     return true;
 }

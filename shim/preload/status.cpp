@@ -96,6 +96,14 @@ void say_once(const char* format, ...) {
 
 bool has_status_file() { return !status_file().empty(); }
 
+bool speaks_alone() {
+    static const bool verbose = [] { // asked once, as above
+        const char* const value = std::getenv("GLCAST_VERBOSE");
+        return value && *value;
+    }();
+    return verbose || !has_status_file();
+}
+
 void tell(const char* event, const std::string& text) {
     if (!has_status_file()) return;
     const QuietThread quiet;

@@ -16,6 +16,8 @@ namespace glcast::preload {
 /// One line in GLCAST_STATUS; nothing without it.
 void tell(const char* event, const std::string& text);
 bool has_status_file();
+/// Nobody else tells of captures and lists: there is no GLCAST_STATUS, or GLCAST_VERBOSE wants figures all the same.
+bool speaks_alone();
 
 /// File name of the running program.
 std::string program_name();

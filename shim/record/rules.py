@@ -51,7 +51,7 @@ CLASSES = [
     # target is cleared by the engine and not by ClearBuffer; copies between framebuffers and to the accumulation buffer
     # make no new geometry
     ("ignored", r"""InitNames LoadName PushName PopName PassThrough Flush Finish Hint ReadBuffer
-        ClearBuffer(fv|iv|uiv|fi) BlitFramebuffer Invalidate.* (Push|Pop)(DebugGroup|GroupMarker.*) (Push|Pop)GroupMarkerEXT
+        ClearBuffer(fv|iv|uiv|fi) Invalidate.* (Push|Pop)(DebugGroup|GroupMarker.*) (Push|Pop)GroupMarkerEXT
         DebugMessage.* Object(Ptr)?Label InsertEventMarkerEXT LabelObjectEXT StringMarkerGREMEDY FrameTerminatorGREMEDY
         MemoryBarrier.* TextureBarrier(NV)? LockArraysEXT UnlockArraysEXT Accum CopyPixels ResizeBuffersMESA
         SampleCoverage MinSampleShading ActiveStencilFaceEXT StencilFuncSeparateATI BufferParameteriAPPLE
@@ -60,7 +60,7 @@ CLASSES = [
         Combiner.*NV FinalCombinerInputNV (Begin|End)OcclusionQueryNV SamplePattern(EXT|SGIS) VertexWeighthv?NV
         VertexAttribs[1-4]hvNV (Set|Finish)Fence(NV|APPLE) FinishObjectAPPLE SampleMask(EXT|SGIS)"""),
     ("plain", r"""ActiveTexture AlphaFunc Blend(Color|Equation|EquationSeparate|Func|FuncSeparate)
-        Clear Clear(Accum|Color|Depth|Depthf|Index|Stencil) ClipPlane Color[34][bdfisu]+v? ColorMask ColorMaterial CullFace
+        BlitFramebuffer Clear Clear(Accum|Color|Depth|Depthf|Index|Stencil) ClipPlane Color[34][bdfisu]+v? ColorMask ColorMaterial CullFace
         Depth(Func|Mask|Range|Rangef) DepthBoundsEXT DrawBuffer DrawBuffers EdgeFlagv? EvalCoord[12][df]v? EvalMesh[12]
         EvalPoint[12] Fog(Coord)?(f|i|d|fv|iv|dv) FrontFace Frustum Index[dfisub]+v? IndexMask Light(Model)?[fi]v?
         Line(Stipple|Width) ListBase Load(Identity|MatrixNONE|Matrix[df]|TransposeMatrix[df]) LogicOp MapGrid[12][df]
@@ -94,7 +94,7 @@ REASONS = [
     ("a hint", r"Hint PrioritizeTextures.*"),
     ("the program's own measurement; a frame cannot begin inside one, and is replayed without",
      r"(Begin|End)Query.* QueryCounter.* (Begin|End)OcclusionQuery.*"),
-    ("copies pixels on the screen and makes no geometry", r"Accum CopyPixels BlitFramebuffer.* ReadBuffer ClearBuffer.*"),
+    ("copies pixels on the screen and makes no geometry", r"Accum CopyPixels ReadBuffer ClearBuffer.*"),
     ("our images have one sample", r"SampleCoverage.* MinSampleShading.* Sample(Mask|Pattern).*"),
     ("weights and generic attributes are read by programs alone", r"VertexWeigh.* VertexAttribs.*"),
     ("tells the driver that arrays will not change", r"LockArraysEXT UnlockArraysEXT"),

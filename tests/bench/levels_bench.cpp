@@ -1,9 +1,10 @@
-// bench-levels: how far levels are from the surface, each way by itself, and what shape they are in: the largest
-// distance at every count where few triangles are left, and the mean. Not a test. Usage:
-//   bench-levels (--shape teapot --n 128 | --mesh FULL.glb --sample LENGTH) [--from 4 --to 200 | --counts 10000,2000]
+// bench-levels: how far levels are from the surface, each way by itself, and what shape they are in: the
+// largest distance at every count where few triangles are left, and the mean. Not a test. Usage:
+//   bench-levels (--shape teapot --n 128 | --mesh FULL.glb --sample LENGTH) [--from 4 --to 200 | --counts
+//   10000,2000]
 //                [--collapsed] [--points 100000]
-// A shape is drawn by OSMesa, captured and reconstructed here; FULL.glb is what glcast mesh wrote, its first level
-// the full surface. Distances are in samples. One run of collapses makes all levels.
+// A shape is drawn by OSMesa, captured and reconstructed here; FULL.glb is what glcast mesh wrote, its first
+// level the full surface. Distances are in samples. One run of collapses makes all levels.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -36,8 +37,11 @@ Level surface_of(const Options& options) {
         return level;
     }
     const paper::Capture capture = paper::capture_mesh(fixtures::truth(options.shape), options.n);
-    return {paper::reconstruct_capture(capture, SurfaceMethod::contour).mesh, options.shape, {},
-            capture.box.size / capture.n, {}};
+    return {paper::reconstruct_capture(capture, SurfaceMethod::contour).mesh,
+            options.shape,
+            {},
+            capture.box.size / capture.n,
+            {}};
 }
 
 void run(Options options) {
@@ -51,15 +55,16 @@ void run(Options options) {
     const std::vector<Mesh> levels = simplify_levels(full.mesh, targets, {.refit = !options.collapsed});
     const test::BothWaysMeter meter(full.mesh, options.points);
     const double volume = check_mesh(full.mesh).volume;
-    std::printf("| asked | triangles | mean there | mean back | most there | most back | volume | crossings | folds | "
+    std::printf("| asked | triangles | mean there | mean back | most there | most back | volume | crossings "
+                "| folds | "
                 "slivers |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (std::size_t k = 0; k < levels.size(); ++k) {
         const test::BothWays d = meter.measure(levels[k]);
         const test::Faults faults = test::faults_of(levels[k]);
         std::printf("| %zu | %zu | %.4f | %.4f | %.2f | %.2f | %.3f | %zu | %zu | %zu |\n", options.counts[k],
                     levels[k].triangles.size(), d.there.mean / full.sample, d.back.mean / full.sample,
-                    d.there.most / full.sample, d.back.most / full.sample, check_mesh(levels[k]).volume / volume,
-                    faults.crossings, faults.folds, faults.slivers);
+                    d.there.most / full.sample, d.back.most / full.sample,
+                    check_mesh(levels[k]).volume / volume, faults.crossings, faults.folds, faults.slivers);
         std::fflush(stdout);
     }
 }

@@ -92,8 +92,12 @@ const Case cases[] = {
          coloured_box(gl, base);
      },
      base},
-    {"nothing but sums",
+    {"nothing but sums at depths that were drawn before",
      [](const GlTable& gl) {
+         gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+         coloured_box(gl, base);
+         gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+         gl.DepthFunc(GL_EQUAL);
          blend(gl, GL_ONE, GL_ONE);
          coloured_box(gl, paint);
          coloured_box(gl, paint);
@@ -170,9 +174,9 @@ const Case cases[] = {
     {"depth not written by the first",
      [](const GlTable& gl) {
          gl.DepthMask(GL_FALSE);
-         blend(gl, GL_ONE, GL_ONE, GL_LESS);
          coloured_box(gl, base);
          gl.DepthMask(GL_TRUE);
+         blend(gl, GL_ONE, GL_ONE, GL_LESS);
          coloured_box(gl, paint);
          coloured_box(gl, paint); // meets its own depth
      },

@@ -110,7 +110,7 @@ void polygons(const GlTable& gl) {
 
 void logic(const GlTable& gl) {
     gl.Enable(GL_COLOR_LOGIC_OP);
-    gl.LogicOp(GL_INVERT);
+    gl.LogicOp(GL_COPY_INVERTED);
     gl.BlendColor(1, 0, 0, 1);
 }
 
@@ -148,7 +148,12 @@ const std::vector<HostileCall>& hostile_calls() {
         {"fog", fog},
         {"lights", light},
         {"logic op and blend colour", logic, true},
-        {"additive blending", [](const GlTable& gl) { gl.Enable(GL_BLEND), gl.BlendFunc(GL_ONE, GL_ONE); }, true},
+        {"blending by a constant",
+         [](const GlTable& gl) {
+             gl.BlendColor(0, 0, 0, 1);
+             gl.Enable(GL_BLEND), gl.BlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+         },
+         true},
         {"dither", [](const GlTable& gl) { gl.Enable(GL_DITHER); }, true},
         {"culling", [](const GlTable& gl) { gl.Enable(GL_CULL_FACE), gl.CullFace(GL_FRONT); }},
         {"polygon offset", polygon_offset},

@@ -187,16 +187,35 @@ TEST_F(ForcedState, AlphaTestAndBlending) {
         {"blending that replaces", [](const GlTable& gl) { gl.Enable(GL_BLEND); }, true, true},
         {"both",
          [](const GlTable& gl) {
-             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE);
+             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
              gl.Enable(GL_BLEND);
              gl.AlphaFunc(GL_GREATER, 0.1f);
              gl.Enable(GL_ALPHA_TEST);
+         },
+         false, true},
+        {"both, the other way round",
+         [](const GlTable& gl) {
+             gl.BlendFunc(GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA);
+             gl.Enable(GL_BLEND);
+             gl.AlphaFunc(GL_LESS, 0.2f);
+             gl.Enable(GL_ALPHA_TEST);
+         },
+         false, false},
+        {"the other way round", [](const GlTable& gl) { gl.BlendFunc(GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA), gl.Enable(GL_BLEND); },
+         true, false},
+        {"glows", [](const GlTable& gl) { gl.BlendFunc(GL_SRC_ALPHA, GL_ONE), gl.Enable(GL_BLEND); }, false, false},
+        {"logic in the place of blending",
+         [](const GlTable& gl) {
+             gl.PushAttrib(GL_ALL_ATTRIB_BITS);
+             gl.LogicOp(GL_XOR), gl.BlendColor(0, 0, 0, 0);
+             gl.PopAttrib();
+             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE), gl.Enable(GL_BLEND), gl.Enable(GL_COLOR_LOGIC_OP);
          },
          true, true},
         {"pushed and popped",
          [](const GlTable& gl) {
              gl.PushAttrib(GL_COLOR_BUFFER_BIT);
-             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE);
+             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
              gl.Enable(GL_BLEND);
              gl.ColorMask(0, 0, 0, 0);
              gl.PopAttrib();
@@ -204,7 +223,7 @@ TEST_F(ForcedState, AlphaTestAndBlending) {
          true, true},
         {"popped into blending",
          [](const GlTable& gl) {
-             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE);
+             gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
              gl.Enable(GL_BLEND);
              gl.PushAttrib(GL_ENABLE_BIT);
              gl.Disable(GL_BLEND);
@@ -220,7 +239,7 @@ TEST_F(ForcedState, AlphaTestAndBlending) {
             gl.BlendFunc(GL_ONE, GL_ZERO);
             c.set(gl);
             two_alphas(gl);
-            gl.Disable(GL_BLEND);
+            gl.Disable(GL_BLEND), gl.Disable(GL_COLOR_LOGIC_OP);
         });
         EXPECT_EQ(covered_at(cast, {-0.5, 0, 0}), c.left);
         EXPECT_EQ(covered_at(cast, {0.5, 0, 0}), c.right);

@@ -31,10 +31,11 @@ struct RawCapture {
                 parts.back().push_back({std::string(a.name), std::string(a.type),
                                         std::string(a.value.begin(), a.value.end()),
                                         std::uint32_t(a.value.size())});
-                if (a.name == "chunkCount") chunk_count += exr::read_u32(a.value.data());
+                if (a.name == "chunkCount" && a.value.size() == 4) chunk_count += exr::read_u32(a.value.data());
             }
         }
         ++at;
+        if (chunk_count > (bytes.size() - at) / 8) throw std::logic_error("no capture to begin with");
         const std::size_t data = at + 8 * chunk_count;
         for (std::size_t k = 0; k < chunk_count; ++k)
             offsets.push_back(exr::read_u64(bytes.data() + at + 8 * k) - data);
@@ -75,8 +76,14 @@ struct RawCapture {
         for (auto& part : parts) part.push_back({name, type, value, std::uint32_t(value.size())});
     }
     /// The head of chunk k, then its bytes.
-    std::uint32_t chunk_size(std::size_t k) const { return exr::read_u32(chunks.data() + offsets[k] + 8); }
-    std::string chunk(std::size_t k) const { return chunks.substr(offsets[k] + 12, chunk_size(k)); }
+    std::uint32_t chunk_size(std::size_t k) const {
+        if (offsets[k] > chunks.size() || chunks.size() - offsets[k] < 12) throw std::logic_error("no such chunk");
+        return exr::read_u32(chunks.data() + offsets[k] + 8);
+    }
+    std::string chunk(std::size_t k) const {
+        const std::uint32_t size = chunk_size(k);
+        return chunks.substr(offsets[k] + 12, size);
+    }
     /// Puts another in its place, at the end; what stood there stays, and nothing refers to it.
     void replace_chunk(std::size_t k, const std::string& data) {
         std::string head = chunks.substr(offsets[k], 8);

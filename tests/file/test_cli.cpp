@@ -111,7 +111,7 @@ TEST_F(Command, RefusalsAreOneLineAndLeaveNothing) {
     std::filesystem::create_directory(file("folder.glb"));
     const std::vector<std::string> before = folder.names();
     expect_one_line(glcast_run("mesh " + file("cut.exr") + " -o " + file("o.glb")), 1, "cut.exr");
-    expect_one_line(glcast_run("mesh " + file("none.exr") + " -o " + file("o.glb")), 1, "No such file");
+    expect_one_line(glcast_run("mesh " + file("none.exr") + " -o " + file("o.glb")), 1, "no such file");
     expect_one_line(glcast_run("mesh " + file("bad.ply") + " -o " + file("o.glb")), 1, "no OpenEXR");
     expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("o.stl")), 1, "name it");
     expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("no/o.glb")), 1, "No such file");
@@ -145,6 +145,28 @@ TEST_F(Command, Usage) {
     EXPECT_EQ(glcast_run("--help").status, 0);
     EXPECT_EQ(glcast_run("mesh --help").status, 0);
     EXPECT_EQ(glcast_run("--version").output, "glcast " GLCAST_VERSION "\n");
+}
+
+TEST_F(Command, NamesTheCommandThatWasMeant) {
+    expect_one_line(glcast_run("foo"), 2, "no such command: foo; there are mesh, info, compare, refine, render and view");
+    expect_one_line(glcast_run("mehs a.exr -o a.glb"), 2, "no such command: mehs; do you mean mesh? There are mesh, info");
+    expect_one_line(glcast_run("$'\\033[2J'"), 2, "\\x1b[2J");
+}
+
+TEST_F(Command, SaysThatThereIsNoSuchFile) {
+    for (const char* ending : {".exr", ".glb", ".obj", ".ply", ".off", ".stl", ".glpm", "", ".xyz"}) {
+        const std::string none = file(std::string("none") + ending), output = " -o " + file("o.glb");
+        const std::string wanted = "no such file: " + none;
+        expect_one_line(glcast_run("info " + none), 1, wanted);
+        expect_one_line(glcast_run("compare " + none + " " + none), 1, wanted);
+        expect_one_line(glcast_run("mesh " + none + output), 1, wanted);
+        expect_one_line(glcast_run("refine " + none + output), 1, wanted);
+        expect_one_line(glcast_run("render " + none + " -o " + file("o.png")), 1, wanted);
+        expect_one_line(glcast_run("view " + none + " -o " + file("o.html")), 1, wanted);
+    }
+    expect_one_line(glcast_run("render " + file("s.exr") + " --capture " + file("n.exr") + " -o " + file("o.png")), 1,
+                    "no such file: " + file("n.exr"));
+    expect_one_line(glcast_run("info " + file(".")), 1, "is a folder");
 }
 
 TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {

@@ -19,15 +19,23 @@ struct OnTerminal {
     std::string output;
 };
 
+/// What is preloaded into glcast.
+struct Ways {
+    bool without_tmpfile = false; ///< temporaries have names
+    bool halted = false;          ///< it goes no further than the stage, until the signal comes
+};
+
 /// Runs glcast on a terminal; `signal` is sent as soon as `stage` is shown.
-OnTerminal on_terminal(const std::vector<std::string>& arguments, const std::string& stage, int signal,
-                       bool without_tmpfile = false) {
+OnTerminal on_terminal(const std::vector<std::string>& arguments, const std::string& stage, int signal, const Ways& ways = {}) {
     OnTerminal ran;
     int terminal = -1;
     const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
     if (pid == 0) {
-        if (without_tmpfile) setenv("LD_PRELOAD", GLCAST_NO_TMPFILE, 1);
-        alarm(60); // whatever happens, it ends
+        const std::string preload = std::string(ways.without_tmpfile ? GLCAST_NO_TMPFILE : "") + ":" +
+                                    (ways.halted ? GLCAST_HALT_AT_STAGE : "");
+        if (preload != ":") setenv("LD_PRELOAD", preload.c_str(), 1);
+        if (ways.halted) setenv("GLCAST_TEST_STAGE", stage.c_str(), 1);
+        alarm(200); // whatever happens, it ends
         std::vector<char*> words{const_cast<char*>(GLCAST_COMMAND)};
         for (const std::string& a : arguments) words.push_back(const_cast<char*>(a.c_str()));
         words.push_back(nullptr);
@@ -76,18 +84,21 @@ class Interrupt : public testing::Test {
 } // namespace
 
 TEST_F(Interrupt, AtEveryStageNothingIsLeft) {
-    for (bool without_tmpfile : {false, true})
-        for (const char* stage : {"reading", "making the surface", "simplifying"}) {
+    for (const bool without_tmpfile : {false, true})
+        for (const char* stage : {"reading", "making the surface", "simplifying", "measuring", "writing"}) {
             const int signal = stage[0] == 'm' ? SIGTERM : SIGINT;
-            const OnTerminal ran =
-                on_terminal({"mesh", file("s.exr"), "-o", file("o.glb")}, stage, signal, without_tmpfile);
-            EXPECT_TRUE(interrupted(ran, signal, {"o.glb"})) << stage << ": ended too early\n" << ran.output;
+            const OnTerminal ran = on_terminal({"mesh", file("s.exr"), "-o", file("o.glb")}, stage, signal,
+                                               {.without_tmpfile = without_tmpfile, .halted = true});
+            EXPECT_TRUE(interrupted(ran, signal, {"o.glb"})) << stage << ": not ended\n" << ran.output;
         }
+}
+
+TEST_F(Interrupt, WhileFilesAreWrittenAllOrNothingIsLeft) {
     const std::vector<std::vector<std::string>> outputs = {{"o.glb"}, {"o.lod1.obj", "o.obj"}, {"o.lod1.ply", "o.ply"}};
     for (const auto& names : outputs)
         for (const char* stage : {"measuring", "writing"})
             interrupted(on_terminal({"mesh", file("s.exr"), "-o", file(names.back()), "--ratio", "0.2,0.1"}, stage,
-                                    SIGINT, true),
+                                    SIGINT, {.without_tmpfile = true}),
                         SIGINT, names);
 }
 

@@ -265,7 +265,7 @@ TEST(Refused, InOneLine) {
         {"a.off", "hello\n", "no OFF"},
         {"b.off", "OFF\n99999999999 1 0\n", "counts"},
         {"c.off", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n", "corner"},
-        {"d.off", "4OFF\n1 1 0\n", "kind"},
+        {"d.off", "nOFF\n1 1 0\n", "kind"},
         {"a.ply", "plyx\n", "no PLY"},
         {"b.ply",
          "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n",

@@ -10,7 +10,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-HOWS = ["vertex colours", "textured", "OpenMesh", "meshoptimizer", "CGAL"]
+OURS = ["vertex colours", "textured"]
+PEERS = ["meshoptimizer, attributes", "meshoptimizer, update", "CGAL, Garland and Heckbert", "CGAL, Lindstrom and Turk",
+         "Blender, collapse", "OpenMesh"]
+SURFACES = {"cast": "the cast's full surface", "own mesh": "the program's own mesh"}
 TARGETS = [10_000, 2_000, 500]
 WANTED_DB = 35
 
@@ -27,9 +30,17 @@ took part in making the cast. Each level is drawn at the same {fine} x {fine} pl
 *dB* and *one sample* are PSNR over all pixels of all views, background too. *inside*: PSNR over the samples alone that both original and level
 cover, not averaged: colour and light without the outline. *SSIM*: Wang et al. 2004, mean of the views. *Error*: the larger of the mean distances
 there and back (`glcast compare`), in samples of the cast; against the program's own mesh where that is known (points that nobody can see left out), else
-against the full surface of the cast. OpenMesh (DecimaterT, ModQuadricT), meshoptimizer (meshopt_simplify) and CGAL (edge_collapse,
-Lindstrom-Turk) simplify the program's own mesh, to the same count, with normals and colours of the nearest point of the original. In bold: {wanted} dB
-and more.
+against the full surface of the cast. In bold: {wanted} dB and more.
+
+The peers simplify the program's own mesh, where it is known, and the cast's full surface, each to the same count:
+
+- meshoptimizer of npm ({meshoptimizer}): `simplifyWithAttributes` and `simplifyWithUpdate`, normals and colours of weight .1, the surface split where its
+  triangles meet at more than 35 degrees; with `Permissive` where the count is not reached without;
+- CGAL `edge_collapse`, Garland-Heckbert (with bounded change of normals) and Lindstrom-Turk, at their defaults;
+- Blender's decimate modifier, collapse; OpenMesh DecimaterT with ModQuadricT.
+
+The last three know positions alone. They get normals and colours of the nearest point of the surface that faces as their triangles do, split at 35
+degrees too.
 
 ## Textured at 2,000 triangles
 
@@ -69,12 +80,38 @@ def cells(row):
 
 
 def table(rows):
-    find = {(row["how"], row["target"]): row for row in rows}
+    find = {(row["how"], row["of"], row["target"]): row for row in rows}
     lines = ["| |" + "".join(f" {t:,}: error | dB | one sample | inside | SSIM |" for t in TARGETS),
              "|---|" + "---|---|---|---|---|" * len(TARGETS)]
-    for how in HOWS:
-        if any((how, target) in find for target in TARGETS):
-            lines.append(f"| {how} |" + "".join(cells(find.get((how, target))) for target in TARGETS))
+    for of, surface in SURFACES.items():
+        hows = (OURS if of == "cast" else []) + PEERS
+        hows = [how for how in hows if any((how, of, target) in find for target in TARGETS)]
+        if hows and of != "cast":
+            lines.append(f"| *of {surface}* |" + " | | | | |" * len(TARGETS))
+        for how in hows:
+            lines.append(f"| {how} |" + "".join(cells(find.get((how, of, target))) for target in TARGETS))
+    return "\n".join(lines)
+
+
+def beside_peers(sections):
+    """At each count the best peer on the cast's surface, and ours: is ours as good, in dB and in SSIM?"""
+    lines = ["| | triangles | vertex colours | textured | best peer of the cast: dB | SSIM | at least as good | best peer of the program's mesh |",
+             "|---|---|---|---|---|---|---|---|"]
+    for name, rows in sections:
+        for target in TARGETS:
+            there = [row for row in rows if row["target"] == target]
+            ours = {row["how"]: row for row in there if row["how"] in OURS}
+            peers = {of: [row for row in there if row["how"] in PEERS and row["of"] == of] for of in SURFACES}
+            if not peers["cast"]:
+                continue
+            best, alike = max(peers["cast"], key=lambda row: row["psnr"]), max(peers["cast"], key=lambda row: row["ssim"])
+            good = [how for how in OURS if how in ours and ours[how]["psnr"] >= best["psnr"] and ours[how]["ssim"] >= alike["ssim"]]
+            shown = [f"{ours[how]['psnr']:.1f} ({ours[how]['ssim']:.4f})" if how in ours else "–" for how in OURS]
+            own = max(peers["own mesh"], key=lambda row: row["psnr"], default=None)
+            verdict = "both" if len(good) == 2 else good[0] if good else "no"
+            beside = f"{own['psnr']:.1f} ({own['ssim']:.4f}), {own['how']}" if own else "–"
+            lines.append(f"| {name} | {target:,} | {shown[0]} | {shown[1]} | {best['psnr']:.1f}, {best['how']} | "
+                         f"{alike['ssim']:.4f}, {alike['how']} | {verdict} | {beside} |")
     return "\n".join(lines)
 
 
@@ -102,6 +139,11 @@ def picture(folder, name, docs):
     return f"![{name}: {', '.join(shown)} at 500 triangles](images/{target.name})\n"
 
 
+def npm_version():
+    package = json.loads((Path(__file__).parents[2] / "package.json").read_text())
+    return package["devDependencies"]["meshoptimizer"]
+
+
 def main():
     programs, folder, docs, key = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
     names, commands = [], {}
@@ -117,9 +159,9 @@ def main():
     sections = [f"## {name}\n\n`{commands[name].replace('DATA/', '').replace('FIXTURES/', '').replace('SAVERS/', '')}`. "
                 f"{limits(rows)}\n\n{table(rows)}\n\n{picture(folder, name, docs)}" for name, rows in measured]
     head = HEAD.format(n=first["n"], views=first["views"], wanted=WANTED_DB, samples=first["samples"], width=first["width"],
-                       fine=first["samples"] * first["width"])
+                       fine=first["samples"] * first["width"], meshoptimizer=npm_version())
     notes = Path(__file__).with_name("levels_notes.md")
-    (docs / "levels.md").write_text(f"{head}{summary(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
+    (docs / "levels.md").write_text(f"{head}{summary(measured)}\n\n## Beside other simplifiers\n\ndB, and SSIM in brackets.\n\n{beside_peers(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
 
 
 main()

@@ -13,6 +13,7 @@
 #include "tests/pictures/originals.h"
 #include "tests/pictures/quality.h"
 #include "tests/pictures/reference.h"
+#include "tests/pictures/shown_peers.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
@@ -24,9 +25,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-    std::string name, capture, levels, textured, original, json, pictures;
+    std::string name, capture, full, levels, textured, original, json, pictures;
     std::vector<std::size_t> targets{10'000, 2'000, 500};
     int samples = 4; ///< a pixel, along an axis
+    bool peers = true;
 };
 
 struct Context {
@@ -39,7 +41,8 @@ struct Context {
     Json rows = Json::array();
 };
 
-Json measured(Context& context, const std::string& how, std::size_t target, const Level& level) {
+Json measured(Context& context, const std::string& how, std::size_t target, const Level& level,
+              const std::string& of = "cast") {
     const Mesh& mesh = level.mesh;
     DeviationOptions points;
     points.visible_only = context.known; // what a cast cannot see it need not have
@@ -48,6 +51,7 @@ Json measured(Context& context, const std::string& how, std::size_t target, cons
     Json row = {{"program", context.options.name},
                 {"n", context.n},
                 {"how", how},
+                {"of", of},
                 {"target", target},
                 {"triangles", mesh.triangles.size()},
                 {"textured", !level.texture.empty()},
@@ -106,10 +110,6 @@ void write_picture(const Context& context, const std::string& what, const Level&
 
 void add_levels(Context& context, const std::string& file, const std::string& how) {
     const std::vector<Level> levels = read_levels(file);
-    if (how == "vertex colours") {
-        measured(context, "full surface", 0, levels[0]);
-        write_picture(context, "full", levels[0]);
-    }
     for (const std::size_t target : context.options.targets) {
         const Level* level = level_of(levels, target);
         if (!level)
@@ -121,16 +121,22 @@ void add_levels(Context& context, const std::string& file, const std::string& ho
     }
 }
 
-void add_simplified(Context& context) {
-    measured(context, "original", 0, Level{context.truth, ""});
-    for (const test::SimplifyPeer& peer : test::simplify_peers()) {
-        if (!peer.is_default) continue;
+/// Of one surface, which all of them get; what has no more triangles than asked for is as good as itself.
+void add_peers(Context& context, const Level& surface, const std::string& of) {
+    for (const ShownPeer& peer : shown_peers())
         for (const std::size_t target : context.options.targets) {
-            const Level level{simplified_original(context.truth, peer, target), ""};
-            measured(context, peer.library, target, level);
-            write_picture(context, peer.library + std::string("-") + std::to_string(target), level);
+            if (surface.mesh.triangles.size() <= target) {
+                measured(context, peer.name, target, surface, of);
+                continue;
+            }
+            try {
+                const Level level = peer.run(surface, target);
+                measured(context, peer.name, target, level, of);
+                write_picture(context, peer.name + ", " + of + "-" + std::to_string(target), level);
+            } catch (const std::runtime_error& error) { // a program that is not there, or no memory
+                std::cerr << peer.name << " of the " << of << ": " << error.what() << '\n';
+            }
         }
-    }
 }
 
 /// The mean of what was captured: for meshes whose colour the program chose.
@@ -148,18 +154,25 @@ void run(const Options& options) {
     const CaptureInfo info = read_capture_info(options.capture);
     context.sample = info.box.size / info.n;
     context.n = info.n;
+    const Level full = std::move(read_levels(options.full).front());
     if (context.known) {
         context.truth = original(options.original);
         if (context.truth.colours.empty()) colour_like_the_capture(context.truth, context.views);
     } else {
-        context.truth = read_levels(options.levels)[0].mesh;
+        context.truth = full.mesh;
     }
     if (!options.pictures.empty())
         write_png(options.pictures + "/" + options.name + "-original.png",
                   antialiased(lit(fullest(context.views)), options.samples));
+    measured(context, "full surface", 0, full);
+    write_picture(context, "full", full);
     add_levels(context, options.levels, "vertex colours");
     if (!options.textured.empty()) add_levels(context, options.textured, "textured");
-    if (context.known) add_simplified(context);
+    if (context.known) {
+        measured(context, "original", 0, Level{context.truth, ""}, "own mesh");
+        if (options.peers) add_peers(context, Level{context.truth, ""}, "own mesh");
+    }
+    if (options.peers) add_peers(context, split_at_creases(full), "cast");
     std::ofstream(options.json) << context.rows.dump(1) << '\n';
 }
 
@@ -171,6 +184,7 @@ int main(int count, char** arguments) {
     CLI::App app("Errors of levels of detail against what the program drew.");
     app.add_option("--name", options.name)->required();
     app.add_option("--capture", options.capture, "made with GLCAST_REFERENCE_VIEWS")->required();
+    app.add_option("--full", options.full, "mesh of the full surface")->required();
     app.add_option("--levels", options.levels, "mesh with levels, colours of vertices")->required();
     app.add_option("--textured", options.textured, "mesh with levels, textured");
     app.add_option("--original", options.original, "teapot, spheres or t.obj");
@@ -178,6 +192,7 @@ int main(int count, char** arguments) {
     app.add_option("--pictures", options.pictures, "folder for pictures of the levels");
     app.add_option("--samples", options.samples, "samples a pixel, along an axis")->check(CLI::Range(1, 16));
     app.add_option("--targets", options.targets)->delimiter(',');
+    app.add_flag("!--no-peers", options.peers, "our own levels alone");
     CLI11_PARSE(app, count, arguments);
     try {
         glcast::pictures::run(options);

@@ -30,6 +30,8 @@ FOLDERS = [*Path("/usr/lib").glob("*/piglit"), Path("/usr/lib/piglit")]
 SLOW_CPU, SHIM_CPU, WALL = 3, 10, 300  # seconds
 SPARSE = 1000  # every how many frames, for those that end ten thousand of them
 RETRIES = 6
+REFUSALS = 5  # of the X server, which say nothing of the program
+REFUSED = re.compile(r"XOpenDisplay|(open|connect to) (X )?(display|server)", re.IGNORECASE)
 LEAST_PROGRAMS, LEAST_CASTING = 150, 100
 
 ARMED = {"GLCAST_READ_ENDS": "1", "GLCAST_N": "8", "GLCAST_GROUP": "1"}
@@ -70,12 +72,16 @@ def read_profile(folder, rules):
 
 
 class Server:
-    """An X server of its own for each worker: programs look at focus, overlap and front buffers."""
+    """An X server of its own for each worker: programs look at focus, overlap and front buffers.
+
+    Without -noreset it starts anew whenever its last client leaves, and refuses the next program that comes meanwhile: on a
+    busy machine that takes long enough to be met.
+    """
 
     def __init__(self):
         reader, writer = os.pipe()
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"],
             pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as answer:
@@ -97,7 +103,10 @@ class Run:
         with tempfile.TemporaryDirectory() as scratch:
             if shim:
                 environment |= ARMED | {"GLCAST_EVERY": str(every), "LD_PRELOAD": shim, "GLCAST_OUT": scratch + "/cast.exr"}
-            self.start(folder, command, environment, cpu)
+            for _ in range(1 + REFUSALS):
+                self.start(folder, command, environment, cpu)
+                if not REFUSED.search(self.err + self.out):
+                    break
         self.casts = self.err.count("glcast: captured frame")
 
     def start(self, folder, command, environment, cpu):

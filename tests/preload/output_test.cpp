@@ -98,7 +98,7 @@ TEST(Output, glcast_run_refuses_devices_and_boxes_alike) {
         EXPECT_NE(outcome.exit_code, 0);
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
-    says({"-o", "/dev/full"}, "it is a device, a pipe or a socket");
+    says({"-o", "/dev/full"}, "it is no regular file");
     says({"--box=-1e308,-1e308,-1e308,1e308,1e308,1e308"}, "beyond 1e30");
     says({"--max-seconds", "0"}, "--max-seconds");
 }

@@ -39,6 +39,7 @@ const Refusal refusals[] = {
     {"matrix_of_three", cube, {{"GLCAST_FRAME_MATRIX", "1 2 3"}}, "GLCAST_FRAME_MATRIX"},
     {"no_such_folder", cube, {{"GLCAST_OUT", "/no/such/folder/cast.exr"}}, "no folder /no/such/folder"},
     {"folder_for_a_file", cube, {{"GLCAST_OUT", "/"}}, "it is a folder"},
+    {"mesh_for_a_capture", cube, {{"GLCAST_OUT", "/tmp/a.glb"}}, "a capture is named .exr"},
     {"no_such_group", cube, {{"GLCAST_GROUP", "9"}}, "there is no group 9, the frame has 1 group: 1 12 triangles in 6 draws, perspective, viewport"},
     {"no_such_group_where_all_is_flat",
      {FIXTURE_GLX, "--empty", "--overlay", "--frames", "2"},

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 #include "tests/preload/program_run.h"
 
 namespace glcast::test {
@@ -25,10 +25,10 @@ std::set<std::string> files_in(const TemporaryFolder& folder) {
 }
 
 TEST(OutputName, is_filled_in) {
-    EXPECT_EQ(preload::output_name("a.exr", 7, 9), "a.exr");
-    EXPECT_EQ(preload::output_name("%p-%f.exr", 7, 9), "7-9.exr");
-    EXPECT_EQ(preload::output_name("100%%%f%", 7, 9), "100%9%");
-    EXPECT_EQ(preload::output_name("%x", 7, 9), "%x");
+    EXPECT_EQ(output_name("a.exr", 7, 9), "a.exr");
+    EXPECT_EQ(output_name("%p-%f.exr", 7, 9), "7-9.exr");
+    EXPECT_EQ(output_name("100%%%f%", 7, 9), "100%9%");
+    EXPECT_EQ(output_name("%x", 7, 9), "%x");
 }
 
 struct Several {

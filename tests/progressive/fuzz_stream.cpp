@@ -6,6 +6,7 @@
 #include "tests/file/file_tools.h"
 #include "tests/file/memory_limit.h"
 #include "tests/mesh/bodies.h"
+#include "tests/progressive/apart.h"
 #include "tests/progressive/bodies.h"
 #include "tools/progressive/geomorph.h"
 #include "tools/progressive/packing.h"
@@ -15,53 +16,6 @@ namespace glcast::test {
 namespace {
 
 using namespace progressive;
-
-template <class T> T number(const std::string& bytes, std::size_t at) {
-    T value = 0;
-    for (std::size_t k = 0; k < sizeof value; ++k)
-        value = T(value | T(std::uint8_t(bytes.at(at + k))) << 8 * k);
-    return value;
-}
-template <class T> void put(std::string& bytes, std::size_t at, T value) {
-    for (std::size_t k = 0; k < sizeof value; ++k) bytes.at(at + k) = char(std::uint8_t(value >> 8 * k));
-}
-
-/// A stream taken apart as docs/progressive-meshes.md says: header, then chunks, unpacked.
-struct Apart {
-    std::string header; ///< without its checksum
-    struct Chunk {
-        std::uint32_t count;
-        std::string bytes;
-    };
-    std::vector<Chunk> chunks;
-
-    explicit Apart(const std::string& stream) {
-        const std::size_t name = number<std::uint16_t>(stream, 36);
-        header = stream.substr(0, 38 + name);
-        for (std::size_t at = 38 + name + 4; at < stream.size();) {
-            const auto size = number<std::uint64_t>(stream, at + 4),
-                       packed_size = number<std::uint64_t>(stream, at + 12);
-            chunks.push_back(
-                {number<std::uint32_t>(stream, at), unpacked(stream.substr(at + 28, packed_size), size)});
-            at += 28 + packed_size;
-        }
-    }
-
-    std::string together() const {
-        std::string stream = header + std::string(4, '\0');
-        put(stream, header.size(), checksum(header));
-        for (const Chunk& chunk : chunks) {
-            const std::string data = packed({chunk.bytes, {}});
-            std::string head(28, '\0');
-            put(head, 0, chunk.count);
-            put(head, 4, std::uint64_t(chunk.bytes.size())), put(head, 12, std::uint64_t(data.size()));
-            put(head, 20, checksum(data));
-            put(head, 24, checksum(head.substr(0, 24)));
-            stream += head + data;
-        }
-        return stream;
-    }
-};
 
 std::string stream_of(const LoggedBody& body) {
     const samples::Folder folder;

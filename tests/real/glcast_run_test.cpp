@@ -1,89 +1,11 @@
 // glcast-run against a toy shim: what it refuses before starting anything, what it tells, and what it leaves
 // behind (nothing).
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <nlohmann/json.hpp>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
-#include "tests/real/command.h"
+#include "tests/real/glcast_run_fixture.h"
 
 namespace glcast::test {
 namespace {
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
-
-class GlcastRun : public testing::Test {
-  protected:
-    GlcastRun() {
-        fs::create_directory(folder / "tmp");
-        // A duration that no other process has: whatever still sleeps for it afterwards was left behind.
-        nap = "9" + std::to_string(getpid()) + "." + std::to_string(++count);
-    }
-    ~GlcastRun() override { fs::remove_all(folder); }
-
-    CommandResult run(std::vector<std::string> arguments, const std::string& toy_lines = "",
-                      const std::string& toy_process = "sleep",
-                      std::vector<std::pair<std::string, std::string>> more = {}) {
-        arguments.insert(arguments.begin(), GLCAST_RUN);
-        more.insert(more.begin(), {{"GLCAST_LIBRARY", TOY_SHIM},
-                                   {"TMPDIR", folder / "tmp"},
-                                   {"TOY_LINES", toy_lines},
-                                   {"TOY_PROCESS", toy_process}});
-        const CommandResult result = run_command(arguments, 30, more);
-        EXPECT_FALSE(result.timed_out);
-        EXPECT_TRUE(fs::is_empty(folder / "tmp")) << "something was left in the folder for temporary files";
-        EXPECT_FALSE(still_napping()) << "a process of the program was left behind";
-        return result;
-    }
-
-    bool still_napping() const {
-        for (const auto& entry : fs::directory_iterator("/proc")) {
-            std::ifstream file(entry.path() / "cmdline");
-            std::stringstream text;
-            text << file.rdbuf();
-            if (text.str().starts_with("sleep") && text.str().find(nap) != std::string::npos) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    void expect_refused(const std::vector<std::string>& options, int exit_code, const std::string& reason) {
-        std::vector<std::string> arguments = options;
-        if (arguments.empty() || arguments.back() != "--") {
-            arguments.insert(arguments.end(), {"--", "touch", folder / "started"});
-        } else {
-            arguments.pop_back();
-        }
-        const CommandResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, exit_code) << result.err;
-        EXPECT_THAT(result.err, HasSubstr(reason));
-        EXPECT_THAT(result.err, StartsWith("glcast-run: "));
-        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-        EXPECT_FALSE(fs::exists(folder / "started")) << "the program was started";
-    }
-
-    std::string capture() const { return folder / "a.exr"; }
-
-    const fs::path folder = make_folder();
-    std::string nap;
-    static inline int count = 0;
-
-  private:
-    /// Not named by our process id: ids come again, and a test that was killed has left its folder.
-    static fs::path make_folder() {
-        std::string pattern = fs::temp_directory_path() / "glcast-run-test-XXXXXX";
-        return mkdtemp(pattern.data()) ? pattern : throw std::runtime_error("cannot make " + pattern);
-    }
-};
 
 TEST_F(GlcastRun, RefusesWrongUsage) {
     const std::string unit_twice = "1,0,0,0,0,2,0,0,0,0,1,0,0,0,0,1";
@@ -98,6 +20,10 @@ TEST_F(GlcastRun, RefusesWrongUsage) {
     expect_refused({"--frame", "0"}, 2, "0");
     expect_refused({"--frame", "2", "--after", "1"}, 2, "excludes");
     expect_refused({"--normals", "eight"}, 2, "eight");
+    for (const char* option : {"--after", "--timeout"})
+        for (const char* seconds : {"nan", "-nan", "inf", "-1", "1e9", "soon"}) expect_refused({option, seconds}, 2, seconds);
+    for (const char* key : {"nokey", "F99", "\x1b", ""}) expect_refused({"--key", key}, 2, "needs a key");
+    for (const char* signal : {"KILL", "SIGTERM", "99", "NONE"}) expect_refused({"--signal", signal}, 2, "needs a signal");
     for (const char* layers : {"many", "0", "257", "2.5", "-1"})
         expect_refused({std::string("--layers=") + layers}, 2, "from 1 to 256");
     expect_refused({"--no-such-option"}, 2, "--no-such-option");
@@ -106,7 +32,11 @@ TEST_F(GlcastRun, RefusesWrongUsage) {
 
 TEST_F(GlcastRun, RefusesWhatCannotWork) {
     expect_refused({"-o", folder / "no/such/folder/a.exr"}, 1, "cannot write");
-    expect_refused({"-o", folder}, 1, "it is a folder");
+    fs::create_directory(folder / "folder.exr");
+    expect_refused({"-o", folder / "folder.exr"}, 1, "it is a folder");
+    ASSERT_EQ(mkfifo((folder / "pipe.exr").c_str(), 0600), 0);
+    expect_refused({"-o", folder / "pipe.exr"}, 1, "no regular file");
+    expect_refused({"-o", folder / "no/../a.exr"}, 1, "cannot write");
     expect_refused({"-o", "/proc/a.exr"}, 1, "cannot write");
     expect_refused({"-o", capture(), "no-such-program-here", "--"}, 1, "no such program");
     expect_refused({"-o", capture(), STATIC_PROGRAM, "--"}, 1, "linked statically");
@@ -142,6 +72,26 @@ TEST_F(GlcastRun, ReportsTheCastAndEndsTheProgram) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("frame 3 of sleep is cast in " + capture()));
     EXPECT_TRUE(fs::exists(capture()));
+}
+
+TEST_F(GlcastRun, SaysFiguresWhenAsked) {
+    const auto said = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {"--quit", "-o", capture(), "--", "sleep", nap});
+        const CommandResult result = run(options, "hooked GLX;figures (n=8, 0.1 s);captured 3 " + capture());
+        EXPECT_EQ(result.exit_code, 0);
+        return result.err;
+    };
+    EXPECT_EQ(said({}), "glcast-run: frame 3 of sleep is cast in " + capture() + "; to look at it: glcast view " + capture() +
+                            " -o " + (folder / "a.html").string() + "\n");
+    EXPECT_THAT(said({"--verbose"}), StartsWith("glcast-run: frame 3: (n=8, 0.1 s)\n"));
+}
+
+TEST_F(GlcastRun, SaysWhatFailedBesideWhatDidNot) {
+    const CommandResult result = run({"--captures", "2", "-o", capture(), "--", "true"},
+                                     "hooked GLX;failed no memory;captured 3 " + capture(), "true");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("no memory"));
+    EXPECT_THAT(result.err, HasSubstr("only 1 of 2 captures"));
 }
 
 TEST_F(GlcastRun, NamesTheCaptureAfterTheProgram) {
@@ -188,6 +138,45 @@ TEST_F(GlcastRun, SaysWhatWasSeenInstead) {
     EXPECT_THAT(why("hooked GLX;casting 2", {"true"}), HasSubstr("the capture of frame 2 was not complete"));
     EXPECT_EQ(why("hooked GLX;failed no framebuffer objects", {"sleep", nap}),
               "glcast-run: no framebuffer objects\n");
+}
+
+TEST_F(GlcastRun, NamesHeadlessWhereThereIsNoScreen) {
+    const auto said = [&](const std::string& display) {
+        const CommandResult result =
+            run({"--quit", "-o", capture(), "--", "true"}, "", "true", {{"DISPLAY", display}});
+        EXPECT_EQ(result.exit_code, 1);
+        return result.err;
+    };
+    EXPECT_THAT(said(""), HasSubstr("DISPLAY is not set"));
+    EXPECT_THAT(said(""), HasSubstr("--headless"));
+    EXPECT_THAT(said(":987654"), HasSubstr("no X server answers at DISPLAY=:987654: --headless"));
+    EXPECT_THAT(said("elsewhere:0"), Not(HasSubstr("--headless"))) << "it is not asked";
+}
+
+TEST_F(GlcastRun, WritesControlCharactersOut) {
+    const CommandResult failed = run({"--quit", "-o", capture(), "--", "sleep", nap},
+                                     "hooked GLX;failed a\x1b]0;title\x07 b\rc");
+    EXPECT_THAT(failed.err, HasSubstr("a\\x1b]0"));
+    EXPECT_THAT(failed.err, Not(HasSubstr("\x1b")));
+    expect_refused({"-o", folder / "a\nb.txt"}, 2, "a\\x0ab.txt");
+    const CommandResult listed =
+        run({"--list", "--", "sleep", nap}, "hooked GLX;group 1 a \x1b[2J window;listed 1");
+    EXPECT_EQ(listed.out, "1 a \\x1b[2J window\n");
+}
+
+TEST_F(GlcastRun, TellsAScriptInJson) {
+    const CommandResult cast = run({"--json", "--quit", "-o", capture(), "--", "sh", "-c", "echo drawn; exec sleep " + nap},
+                                   "hooked GLX;figures (n=8);captured 3 " + capture(), "sh");
+    EXPECT_EQ(cast.exit_code, 0) << cast.err;
+    const auto told = nlohmann::json::parse(cast.out);
+    EXPECT_EQ(told["program"], "sh");
+    EXPECT_EQ(told["captures"][0]["frame"], 3);
+    EXPECT_EQ(told["captures"][0]["figures"], "(n=8)");
+    EXPECT_EQ(told["captures"][0]["capture"], capture());
+    EXPECT_EQ(cast.err, "drawn\n") << "what the program prints, and nothing of ours";
+    const CommandResult listed =
+        run({"--json", "--list", "--", "sleep", nap}, "hooked GLX;group 1 gears;group 2 wall;listed 1");
+    EXPECT_EQ(nlohmann::json::parse(listed.out)["groups"], (std::vector<std::string>{"1 gears", "2 wall"}));
 }
 
 TEST_F(GlcastRun, PassesOnCtrlC) {

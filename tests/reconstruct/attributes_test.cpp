@@ -50,6 +50,32 @@ TEST(Attributes, InvalidNormalsStayAsDrawnOrAreRecomputed) {
     EXPECT_LT(mean_normal_error(cast(*body, 64, options, inwards).mesh, {}, 1), 0.5);
 }
 
+TEST(Attributes, DrawnNormalsThatDisagreeAreMeasured) {
+    const auto body = sphere({0, 0, 0}, 0.8);
+    const auto share = [&](const NormalEdit& edit, const ReconstructOptions& options = {}) {
+        return cast(*body, 48, options, edit).report.disagreeing_normals_share;
+    };
+    EXPECT_EQ(share({}), 0);
+    const auto turned_over_above = [](double height) {
+        return [=](const glm::dvec3& at, const glm::dvec3& normal) { return at.y > height ? -normal : normal; };
+    };
+    EXPECT_NEAR(share(turned_over_above(0)), 0.5, 0.03);
+    EXPECT_NEAR(share(turned_over_above(0.4)), 0.25, 0.03) << "Archimedes' hat box";
+    EXPECT_NEAR(share(turned_over_above(-1)), 1, 0.01);
+    ReconstructOptions geometric;
+    geometric.geometric_normals = true;
+    EXPECT_NEAR(share(turned_over_above(0), geometric), 0.5, 0.03) << "what was drawn is told all the same";
+    const auto leaning = [](double degrees) {
+        return [=](const glm::dvec3&, const glm::dvec3& normal) {
+            const glm::dvec3 across = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, 0.8)));
+            const double angle = glm::radians(degrees);
+            return std::cos(angle) * normal + std::sin(angle) * across;
+        };
+    };
+    EXPECT_LT(share(leaning(50)), 0.01) << "as coarse facets do, shaded smoothly";
+    EXPECT_GT(share(leaning(70)), 0.95);
+}
+
 TEST(Attributes, UnlitPartsGetTheSurfacesNormals) {
     const auto body = sphere({0, 0, 0}, 0.8);
     auto images = cast_body(*body, test_box, 48);

@@ -98,10 +98,11 @@ TEST(Wedges, ACubeHasTwentyFour) {
     }
 }
 
-TEST(Wedges, ACylinderIsSmoothButForItsRims) {
-    constexpr int sides = 24;
-    constexpr double radius = 0.6, height = 0.5;
-    const Source source = make_source(cast_body(*cylinder({0, 0, 0}, {0, 0, 1}, radius, height), test_box, n));
+constexpr int sides = 24;
+constexpr double radius = 0.6, height = 0.5;
+
+/// A cylinder's of so many sides, with a vertex in the middle of each cap.
+Mesh prism() {
     Mesh mesh;
     for (const double z : {-height, height})
         for (int k = 0; k < sides; ++k) {
@@ -116,18 +117,42 @@ TEST(Wedges, ACylinderIsSmoothButForItsRims) {
         mesh.triangles.push_back({next, k, 2 * sides});
         mesh.triangles.push_back({sides + k, sides + next, 2 * sides + 1});
     }
-    Level level = level_of(std::move(mesh), source);
+    return mesh;
+}
+
+TEST(Wedges, ACylinderIsSmoothButForItsRims) {
+    const Source source = make_source(cast_body(*cylinder({0, 0, 0}, {0, 0, 1}, radius, height), test_box, n));
+    Level level = level_of(prism(), source);
     fit_wedges(level, source.captured);
     EXPECT_EQ(level.wedges.normals.size(), 2u * 2 * sides + 2);
-    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t) {
+    const auto faces = triangle_normals(level.mesh);
+    for (std::size_t t = 0; t < faces.size(); ++t) {
         const auto normals = corner_normals(level.mesh, level.wedges, t);
-        const auto faces = triangle_normals(level.mesh);
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 at(level.mesh.positions[level.mesh.triangles[t][k]]);
             const glm::vec3 wanted = std::abs(faces[t].z) > 0.9f ? faces[t] : glm::vec3(at.x, at.y, 0);
             EXPECT_LT(degrees_between(normals[k], wanted), 2) << t;
         }
     }
+}
+
+/// The same, drawn with a normal for each side: fifteen degrees apart, and a crease each.
+TEST(Wedges, FlatSidesStayFlat) {
+    const double step = 2 * std::numbers::pi / sides;
+    const Source source =
+        make_source(cast_body(*cylinder({0, 0, 0}, {0, 0, 1}, radius, height), test_box, 2 * n,
+                              [&](const glm::dvec3& at, const glm::dvec3& normal) {
+                                  if (std::abs(normal.z) > 0.9) return normal;
+                                  const double angle = (std::floor(std::atan2(at.y, at.x) / step) + 0.5) * step;
+                                  return glm::dvec3(std::cos(angle), std::sin(angle), 0);
+                              }));
+    Level level = level_of(prism(), source);
+    fit_wedges(level, source.captured);
+    EXPECT_EQ(level.wedges.normals.size(), 2u * 3 * sides + 2);
+    const auto faces = triangle_normals(level.mesh);
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (const glm::vec3& normal : corner_normals(level.mesh, level.wedges, t))
+            EXPECT_LT(degrees_between(normal, faces[t]), 2.5) << t;
 }
 
 TEST(Wedges, ASphereHasNone) {

@@ -6,6 +6,7 @@
 #include "tests/file/file_tools.h"
 #include "tests/file/sphere_capture.h"
 #include "tests/view/ball.h"
+#include "tools/io/mesh_io.h"
 #include "tools/view/page.h"
 
 using namespace glcast;
@@ -65,25 +66,65 @@ void write_textured_page(const std::string& path) {
 
 } // namespace
 
-TEST(Page, TexturesInChromium) {
-    const Folder folder;
-    const std::string page = (folder / "page.html").string();
-    write_textured_page(page);
-    const Ran ran = run(GLCAST_NODE " " GLCAST_TEXTURE_TEST " chromium " + page);
+namespace {
+
+/// Made by the command, of balls, with what a sphere's capture shows beside them.
+std::string write_page(const Folder& folder) {
+    const std::string ball = (folder / "s<i>&.glb").string(), capture = (folder / "s.exr").string(),
+                      page = (folder / "page.html").string();
+    write_balls(ball);
+    EXPECT_EQ(write_sphere(capture, 48), "");
+    const Ran made = run(GLCAST_COMMAND " view \"" + ball + "\" --capture " + capture +
+                         " --max-triangles 5000 -o " + page);
+    EXPECT_EQ(made.status, 0) << made.output;
+    return page;
+}
+
+void expect_well(const std::string& script, const std::string& page) {
+    const Ran ran = run(GLCAST_NODE " " + script + " chromium " + page);
     EXPECT_EQ(ran.status, 0) << ran.output;
     EXPECT_NE(ran.output.find("all is well"), std::string::npos) << ran.output;
 }
 
+/// What the page saved is the level that it was given, as far as its bytes hold it.
+void expect_saved(const std::string& file, const Level& level, double size) {
+    const Ran valid = run("GLCAST_NODE_MODULES=" GLCAST_NODE_MODULES " " GLCAST_NODE " " GLCAST_VALIDATE " \"" + file + "\"");
+    EXPECT_EQ(valid.status, 0) << valid.output;
+    const Level saved = read_levels(file).at(0);
+    ASSERT_EQ(saved.mesh.triangles.size(), level.mesh.triangles.size());
+    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const auto v = level.mesh.triangles[t][k], w = saved.mesh.triangles[t][k];
+            ASSERT_LT(glm::distance(level.mesh.positions[v], saved.mesh.positions[w]), size / 65535) << t;
+            if (!level.mesh.colours.empty() && level.texture.empty())
+                ASSERT_LT(glm::distance(level.mesh.colours[v], saved.mesh.colours[w]), 0.01f) << t;
+            if (!level.mesh.normals.empty())
+                ASSERT_GT(glm::dot(level.mesh.normals[v], saved.mesh.normals[w]), 0.999f) << t;
+        }
+    EXPECT_EQ(saved.texture.empty(), level.texture.empty());
+    EXPECT_TRUE(saved.texture.colour.rgb == level.texture.colour.rgb);
+    EXPECT_TRUE(saved.texture.normal.rgb == level.texture.normal.rgb);
+}
+
+} // namespace
+
+TEST(Page, TexturesInChromium) {
+    const Folder folder;
+    const std::string page = (folder / "page.html").string();
+    write_textured_page(page);
+    expect_well(GLCAST_TEXTURE_TEST, page);
+    Level level{ball(1, 64), "", {}, 0, {}};
+    level.texture = planar_texture(level.mesh);
+    expect_saved((folder / "textured_LOD0.glb").string(), level, 2);
+}
+
 TEST(Page, InChromium) {
     const Folder folder;
-    const std::string ball = (folder / "s<i>&.glb").string(), capture = (folder / "s.exr").string(),
-                      page = (folder / "page.html").string();
-    write_balls(ball);
-    ASSERT_EQ(write_sphere(capture, 48), "");
-    const Ran made = run(GLCAST_COMMAND " view \"" + ball + "\" --capture " + capture +
-                         " --max-triangles 5000 -o " + page);
-    ASSERT_EQ(made.status, 0) << made.output;
-    const Ran ran = run(GLCAST_NODE " " GLCAST_PAGE_TEST " chromium " + page);
-    EXPECT_EQ(ran.status, 0) << ran.output;
-    EXPECT_NE(ran.output.find("all is well"), std::string::npos) << ran.output;
+    expect_well(GLCAST_PAGE_TEST, write_page(folder));
+    expect_saved((folder / "s_i_&_LOD1.glb").string(), read_levels((folder / "s<i>&.glb").string()).at(1), 3);
+}
+
+TEST(Page, Axe) {
+    const Folder folder;
+    expect_well(GLCAST_AXE_TEST, write_page(folder));
 }

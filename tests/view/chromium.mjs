@@ -84,6 +84,7 @@ export class Tab {
 
   constructor(browser, session) {
     this.send = (method, params) => browser.send(method, params, session);
+    this.browser = browser;
     browser.listen(({ method, params, sessionId }) => {
       if (sessionId !== session) return;
       if (method === 'Network.requestWillBeSent') this.requests.push(params.request.url);
@@ -141,6 +142,21 @@ export class Tab {
   async click(selector, across = 0.5) {
     const { x, y, width, height } = await this.rectangle(selector);
     for (const type of ['mousePressed', 'mouseReleased']) await this.mouse(type, x + width * across, y + height / 2);
+  }
+
+  /** What `act` makes the page save, in a folder. @returns {Promise<string>} the file's name */
+  async download(folder, act) {
+    await this.browser.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
+    let name;
+    const saved = new Promise((done, failed) => {
+      this.browser.listen(({ method, params }) => {
+        if (method === 'Browser.downloadWillBegin') name = params.suggestedFilename;
+        if (method === 'Browser.downloadProgress' && params.state === 'completed') done(name);
+        if (method === 'Browser.downloadProgress' && params.state === 'canceled') failed(new Error(`${name}: not saved`));
+      });
+    });
+    await act();
+    return saved;
   }
 
   async drag(fromX, fromY, toX, toY) {

@@ -2,7 +2,8 @@
 // The page of view_test.cpp in a browser: by clicking, by keys, by touch, and by looking at pixels. Ends with 1 when anything
 // is not as it should be.
 import assert from 'node:assert/strict';
-import { writeFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
+import { dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Chromium, softwareGl } from './chromium.mjs';
 import { decode } from './png.mjs';
@@ -106,6 +107,16 @@ const steps = {
     assert.ok(coarse > 1.2 * fine, `the coarse level is larger: ${fine}, ${coarse} pixels`);
     assert.equal(await tab.evaluate('document.querySelector("#levels .current").cells[0].textContent'), '1');
   },
+  async 'saves the level and the picture'(tab, stage) {
+    const folder = dirname(page);
+    assert.equal(await tab.download(folder, () => tab.click('#save-glb')), 's_i_&_LOD1.glb');
+    const drawn = (await tab.picture()).at(stage.cx, stage.cy);
+    const name = await tab.download(folder, () => tab.click('#save-picture'));
+    assert.equal(name, 's_i_&_LOD1.png');
+    const saved = decode(await readFile(join(folder, name)));
+    assert.deepEqual([saved.width, saved.height], [Math.round(stage.width), Math.round(stage.height)], 'the whole canvas');
+    near(saved.at(saved.width >> 1, saved.height >> 1), drawn.slice(0, 3), 3, 'as it is seen');
+  },
   async 'fits a phone'(tab) {
     await tab.resize(390, 800);
     await tab.picture();
@@ -114,7 +125,7 @@ const steps = {
     assert.ok(count(await tab.picture(), stage, isModel) > 0.01 * stage.width * stage.height);
   },
   async 'never asks the network'(tab) {
-    assert.deepEqual(tab.requests.filter((request) => request !== url && !request.startsWith('data:')), []);
+    assert.deepEqual(tab.requests.filter((request) => request !== url && !/^(data|blob):/.test(request)), []);
     assert.ok(tab.requests.includes(url), 'requests are heard');
     assert.deepEqual(tab.troubles, []);
   },

@@ -2,6 +2,7 @@
 // The page of browser_test.cpp whose ball is textured: seen from +z green on the left and yellow on the right, with normals
 // that lean to the right; red and blue where the colours of the vertices show. Ends with 1 when anything is not so.
 import assert from 'node:assert/strict';
+import { dirname } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Chromium, softwareGl } from './chromium.mjs';
 import { near, stageOf } from './stage.mjs';
@@ -36,6 +37,9 @@ const steps = {
     hue(right, yellow, 'right');
     assert.equal(await tab.evaluate('document.getElementById("texture").getAttribute("aria-pressed")'), 'true');
     assert.equal(await tab.evaluate('document.getElementById("texture").title'), '64 × 64 pixels');
+  },
+  async 'saves it with its pictures'(tab) {
+    assert.equal(await tab.download(dirname(page), () => tab.click('#save-glb')), 'textured_LOD0.glb');
   },
   async 'top and bottom are not turned over'(tab, stage) {
     const picture = await tab.picture();
@@ -81,7 +85,7 @@ const steps = {
     assert.match(await tab.evaluate('document.getElementById("note").textContent'), /6\.0 % of the surface was seen by no ray/);
   },
   async 'never asks the network'(tab) {
-    assert.deepEqual(tab.requests.filter((request) => request !== url && !request.startsWith('data:')), []);
+    assert.deepEqual(tab.requests.filter((request) => request !== url && !/^(data|blob):/.test(request)), []);
     assert.deepEqual(tab.troubles, []);
   },
 };

@@ -23,7 +23,7 @@ Run declare_render(CLI::App& app);
 Run declare_refine(CLI::App& app);
 Run declare_view(CLI::App& app);
 
-/// A line to stderr: "glcast: ...".
+/// A line to stderr: "glcast: ...", control characters written out.
 void say(const std::string& line);
 
 /// What is being done, on a terminal only, gone when done.
@@ -44,8 +44,14 @@ std::function<void(const std::string& what)> progress_of_stages();
 /// One object on stdout, nothing else.
 void print_json(const nlohmann::ordered_json& object);
 
+/// Throws when there is no such file: asked before its kind is guessed from what it holds.
+void require_file(const std::string& file);
+
 /// Throws when a file cannot be made at `path`: asked before hours of work, not after.
 void require_writable(const std::filesystem::path& path);
+
+/// Throws std::runtime_error for a mesh so large that areas and distances are no numbers any more.
+void require_measurable(const Mesh& mesh, const MeshCheck& check);
 
 /// Everything check_mesh counts.
 nlohmann::ordered_json to_json(const MeshCheck& check);
@@ -55,6 +61,9 @@ nlohmann::ordered_json to_json(const LevelError& error);
 
 /// The same for people: "mean 0.01 (0.2 samples), 99.9 % ..., max ...; normals 2 degrees; colours mean 0.01, 99.9 % 0.1".
 std::string error_line(const LevelError& error, double sample);
+
+/// Offers --normals geometric where drawn normals are far off a good part of the surface, a tenth; else empty.
+std::string normals_advice(double disagreeing_normals_share);
 
 /// "1234 triangles, 1851 edges, closed two-manifold"
 std::string summary(const MeshCheck& check);

@@ -88,7 +88,9 @@ void print_side(const char* name, const std::string& file, const MeshCheck& c) {
 }
 
 int compare(const Options& options) {
+    for (const std::string& file : {options.a, options.b}) require_file(file);
     const Side a = read_side(options.a, options.level_a), b = read_side(options.b, options.level_b);
+    for (const Side* side : {&a, &b}) require_measurable(side->level.mesh, side->check);
     const double sample = sample_size(options, a, b);
     DeviationOptions how;
     how.samples = options.points;

@@ -128,12 +128,15 @@ void print_level(const Json& j, const Level& level, const MeshCheck& check) {
                 hi[2].get<double>());
     if (level.error.max > 0)
         std::printf("  error to the full surface: %s\n", error_line(level.error, level.sample).c_str());
+    if (const std::string advice = normals_advice(level.error.disagreeing_normals_share); !advice.empty())
+        std::printf("  %s\n", advice.c_str());
     if (!level.texture.empty())
         std::printf("  texture %d x %d\n", level.texture.colour.width, level.texture.colour.height);
 }
 
 int info(const Options& options) {
-    if (looks_like_exr(options.file)) {
+    require_file(options.file);
+    if (looks_like_exr(options.file) || std::filesystem::path(options.file).extension() == ".exr") {
         const Json json = describe_capture(options);
         options.json ? print_json(json) : print_capture(json);
         return 0;
@@ -145,6 +148,7 @@ int info(const Options& options) {
     std::vector<MeshCheck> checks;
     for (const Level& level : levels) {
         checks.push_back(check_mesh(level.mesh, CheckDepth::everything));
+        require_measurable(level.mesh, checks.back());
         json["levels"].push_back(describe_level(level, checks.back()));
     }
     if (options.json) {

@@ -1,6 +1,7 @@
 #include "tools/cli/interrupt.h"
 
 #include <csignal>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -29,7 +30,11 @@ void end_cleanly_on_signals() {
         if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&awaited, signal);
     }
     pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
-    std::thread(end_on, awaited).detach();
+    try {
+        std::thread(end_on, awaited).detach();
+    } catch (const std::system_error&) { // no memory for a thread: then a signal ends us as it ends anybody
+        pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
+    }
 }
 
 } // namespace glcast::cli

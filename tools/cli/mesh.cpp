@@ -19,7 +19,8 @@ struct Options {
     std::vector<std::string> max_error;
     int texture = 0; ///< texels along an edge; 0: none
     std::string compress = "none";
-    bool split = false, check = false, json = false;
+    bool split = false, check = false, json = false, verbose = false;
+    bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it starts a program
 };
 
 const char* exterior_name(ExteriorRule rule) { return rule == ExteriorRule::layers ? "layers" : "axes"; }
@@ -89,6 +90,7 @@ void print_made(const Options& options, const MeshedCapture& made) {
                        {"crossings", r.crossings},
                        {"unsupportedCrossings", r.unsupported_crossings},
                        {"unsupportedAreaShare", r.unsupported_area_share},
+                       {"disagreeingNormalsShare", r.disagreeing_normals_share},
                        {"verticesWithoutPixel", r.vertices_without_pixel}};
     const MeshedCapture::Seconds& seconds = made.seconds;
     json["seconds"] = {{"read", seconds.read},          {"carve", r.carve_seconds},
@@ -107,6 +109,7 @@ void say_made(const Options& options, const MeshedCapture& made) {
     if (r.exterior == ExteriorRule::axes && options.exterior == "layers")
         say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
             "): cavities that no axis looks into are filled; capture again with --layers auto");
+    if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share); !advice.empty()) say(advice);
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         const Level& level = made.levels[k];
         std::string line = level.name + ": " + summary(made.checks[k]);
@@ -123,6 +126,11 @@ void say_made(const Options& options, const MeshedCapture& made) {
 }
 
 int make_mesh(const Options& options) {
+    if (options.rehearse) {
+        check_output(options.output, how_to(options));
+        return 0;
+    }
+    require_file(options.capture);
     const MeshedCapture made = mesh_capture(options.capture, options.output, how_to(options));
     if (options.json)
         print_made(options, made);
@@ -208,7 +216,9 @@ Run declare_mesh(CLI::App& app) {
     app.add_flag("--split", options->split, ".glb: beside it one file a level: OUT.lod0.glb, OUT.lod1.glb, ...");
     app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
+    app.add_flag("--verbose", options->verbose, "say also how, with figures");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
+    app.add_flag("--rehearse", options->rehearse)->group("");
     return [options] { return make_mesh(*options); };
 }
 

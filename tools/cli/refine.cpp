@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "tools/cli/command.h"
+#include "tools/io/mesh_endings.h"
 #include "tools/io/mesh_io.h"
 #include "tools/progressive/geomorph.h"
 #include "tools/progressive/stream.h"
@@ -35,9 +36,8 @@ bool fits(const ProgressiveFile& file, const Options& options, std::size_t level
 }
 
 void check_options(const Options& options) {
-    const std::string extension = std::filesystem::path(options.output).extension();
-    if (extension != ".glb" && extension != ".obj" && extension != ".ply" && extension != ".off")
-        throw std::runtime_error("cannot write '" + options.output + "': name it .glb, .obj, .ply or .off");
+    if (!has_mesh_ending(options.output))
+        throw std::runtime_error("cannot write '" + options.output + "': name it " + listed_mesh_endings());
     if (options.to > 0 && options.wanted() == 0)
         throw std::runtime_error("--to needs --edges, --triangles or --ratio: the level that it starts from");
     if (options.to > 0 && options.to < options.wanted())
@@ -101,6 +101,7 @@ void say_refined(const Options& options, const ProgressiveFile& file, const Refi
 
 int refine(const Options& options) {
     check_options(options);
+    require_file(options.file);
     ProgressiveFile file = [&] {
         const Progress progress("reading " + options.file);
         return read_progressive(options.file);

@@ -23,6 +23,8 @@ std::string caption(const CaptureInfo& info) {
 int render(const Options& options) {
     if (std::filesystem::path(options.output).extension() != ".png")
         throw std::runtime_error("cannot write '" + options.output + "': name it .png");
+    require_file(options.mesh);
+    if (!options.capture.empty()) require_file(options.capture);
     require_writable(options.output);
     CapturedSix captured;
     if (!options.capture.empty()) captured = read_six_views(options.capture);

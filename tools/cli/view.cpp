@@ -138,6 +138,8 @@ void say_page(const Options& options, const PageInput& input, const Page& page) 
 }
 
 int view(const Options& options) {
+    for (const std::string& file : options.files) require_file(file);
+    if (!options.capture.empty()) require_file(options.capture);
     check_output(options);
     const std::string capture = capture_of(options);
     CapturedSix captured;

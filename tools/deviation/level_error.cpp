@@ -217,6 +217,7 @@ struct LevelMeter::Impl {
             error.colour_p999 = larger(all_but_a_thousandth, &Differences::colour);
         }
         error.unsupported_area_share = full.error.unsupported_area_share;
+        error.disagreeing_normals_share = full.error.disagreeing_normals_share;
         return error;
     }
 

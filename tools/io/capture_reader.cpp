@@ -7,6 +7,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <utility>
 
+#include "capture/exr_header.h"
 #include "tools/io/capture_layout.h"
 #include "tools/io/capture_pixels.h"
 
@@ -144,6 +145,8 @@ std::string one_line(std::string text) {
 template <class Read> auto with_file_name(const std::filesystem::path& path, Read&& read) {
     try {
         return read();
+    } catch (const std::bad_alloc&) {
+        throw; // no fault of the file
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read capture '" + path.string() + "': " + one_line(e.what()));
     }
@@ -175,10 +178,11 @@ Capture read_capture(const std::filesystem::path& path) {
 }
 
 bool looks_like_exr(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const char magic[] = {0x76, 0x2f, 0x31, 0x01};
-    char start[4] = {};
-    return file.read(start, 4) && std::equal(start, start + 4, magic);
+    try {
+        return exr::read_u32(InputFile(path).read(0, 4).data()) == exr::magic;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
 }
 
 } // namespace glcast

@@ -1,5 +1,6 @@
 #include "tools/io/glb_container.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -16,11 +17,34 @@ std::uint32_t word(std::string_view file, std::size_t at) {
     return value;
 }
 
+/// Brackets within brackets, those in texts left out.
+std::size_t nesting(std::string_view json) {
+    std::size_t depth = 0, deepest = 0;
+    bool in_text = false;
+    for (std::size_t k = 0; k < json.size(); ++k) {
+        const char c = json[k];
+        if (in_text && c == '\\') ++k;
+        if (c == '"') in_text = !in_text;
+        if (in_text) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
+    return deepest;
+}
+
 void add_word(std::string& file, std::uint32_t value) {
     file.append(reinterpret_cast<const char*>(&value), 4);
 }
 
 } // namespace
+
+nlohmann::ordered_json gltf_json(std::string_view text) {
+    constexpr std::size_t deepest = 100;
+    if (nesting(text) > deepest) refuse("is nested deeper than " + std::to_string(deepest) + " brackets");
+    auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!json.is_object()) refuse("is damaged: its description is no JSON");
+    return json;
+}
 
 GlbChunks glb_chunks(std::string_view file) {
     if (!file.starts_with("glTF")) refuse("is no .glb file");
@@ -28,8 +52,7 @@ GlbChunks glb_chunks(std::string_view file) {
     const std::size_t end = word(file, 8), length = word(file, 12), rest = 20 + length;
     if (word(file, 16) != json_kind || rest > end) refuse("is damaged: its first part is no JSON");
     GlbChunks chunks;
-    chunks.json = nlohmann::ordered_json::parse(file.substr(20, length), nullptr, false);
-    if (!chunks.json.is_object()) refuse("is damaged: its first part is no JSON");
+    chunks.json = gltf_json(file.substr(20, length));
     if (rest + 8 > end) return chunks;
     if (word(file, rest) > end - rest - 8) refuse("the file is truncated");
     if (word(file, rest + 4) == bytes_kind) chunks.bytes = file.substr(rest + 8, word(file, rest));

@@ -11,6 +11,10 @@ struct GlbChunks {
     std::string_view bytes; ///< of the file; empty where there is no second chunk
 };
 
+/// The description of a .gltf, or of a .glb. Throws std::runtime_error when it is no JSON object, or nested deeper than
+/// anybody nests: readers behind it recurse.
+nlohmann::ordered_json gltf_json(std::string_view text);
+
 /// Throws std::runtime_error when it is no .glb, or not all of one.
 GlbChunks glb_chunks(std::string_view file);
 

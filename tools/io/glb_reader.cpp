@@ -1,4 +1,4 @@
-// .glb by tinygltf: the shown scene with its transforms as level 0, the nodes that MSFT_lod names as further
+// .glb and .gltf by tinygltf: the shown scene with its transforms as level 0, the nodes that MSFT_lod names as further
 // levels.
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <set>
 #include <tiny_gltf.h>
 
 #include "tools/io/glb_accessor.h"
-#include "tools/io/glb_container.h"
 #include "tools/io/glb_extras.h"
 #include "tools/io/glb_textures.h"
-#include "tools/io/meshopt.h"
+#include "tools/io/gltf_file.h"
 #include "tools/io/seams.h"
 
 namespace glcast::format {
@@ -35,6 +35,10 @@ glm::dmat4 transform_of(const tinygltf::Node& node) {
     return m;
 }
 
+std::size_t triangle_count(int mode, std::size_t corners) {
+    return mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
+}
+
 /// Corners of triangles out of the indices of a primitive, by its mode.
 void add_triangles(Mesh& mesh, int mode, std::size_t count,
                    const std::function<std::uint32_t(std::size_t)>& index) {
@@ -44,8 +48,10 @@ void add_triangles(Mesh& mesh, int mode, std::size_t count,
             mesh.triangles.push_back({index(k), index(k + 1), index(k + 2)});
         break;
     case TINYGLTF_MODE_TRIANGLE_STRIP:
-        for (std::size_t k = 0; k + 2 < count; ++k)
-            mesh.triangles.push_back({index(k), index(k + 1 + k % 2), index(k + 2 - k % 2)});
+        for (std::size_t k = 0; k + 2 < count; ++k) {
+            const Triangle t{index(k), index(k + 1 + k % 2), index(k + 2 - k % 2)};
+            if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t); // others join two strips
+        }
         break;
     case TINYGLTF_MODE_TRIANGLE_FAN:
         for (std::size_t k = 1; k + 1 < count; ++k)
@@ -56,18 +62,32 @@ void add_triangles(Mesh& mesh, int mode, std::size_t count,
     }
 }
 
+/// What the levels of a file may hold together, vertices and triangles counted alike. Nodes, levels and primitives may
+/// share what is in the file, so that a small one can name much: within reason.
+class Budget {
+  public:
+    explicit Budget(std::size_t bytes) : left(100'000 + 8 * bytes) {}
+    void take(std::size_t count) {
+        if (count > left) refuse("makes more vertices and triangles of its bytes than is read: 100,000 and 8 a byte");
+        left -= count;
+    }
+
+  private:
+    std::size_t left;
+};
+
 class GlbReader {
   public:
-    explicit GlbReader(const Model& model) : model(model) {}
+    explicit GlbReader(const GltfFile& file) : file(file), model(file.model), budget(file.bytes) {}
 
     Level level(const std::vector<int>& nodes) {
         Level level;
-        normals = colours = true;
-        TextureReader texture(model);
+        normals = true, colours = false;
+        TextureReader texture(file);
         textures = &texture;
         copies = {};
         visited.assign(model.nodes.size(), false);
-        for (int node : nodes) add_node(level, node, glm::dmat4(1));
+        add_nodes(level, nodes);
         if (!normals) level.mesh.normals.clear();
         if (!colours) level.mesh.colours.clear();
         level.wedges = copies.wedges(level.mesh);
@@ -76,13 +96,28 @@ class GlbReader {
     }
 
   private:
-    void add_node(Level& level, int index, const glm::dmat4& parent) {
-        const tinygltf::Node& node = at(model.nodes, index, "a node");
-        if (visited[index]) refuse("its nodes are no tree");
-        visited[index] = true;
-        const glm::dmat4 m = parent * transform_of(node);
-        if (node.mesh >= 0) add_mesh(level, at(model.meshes, node.mesh, "a mesh"), m);
-        for (int child : node.children) add_node(level, child, m);
+    struct Placed {
+        int node;
+        glm::dmat4 parent;
+    };
+
+    /// Each before its children, and these in their order. No recursion: a file may nest as deep as it likes.
+    void add_nodes(Level& level, const std::vector<int>& roots) {
+        std::vector<Placed> waiting;
+        const auto put = [&](const std::vector<int>& nodes, const glm::dmat4& parent) {
+            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.push_back({*node, parent});
+        };
+        put(roots, glm::dmat4(1));
+        while (!waiting.empty()) {
+            const Placed next = waiting.back();
+            waiting.pop_back();
+            const tinygltf::Node& node = at(model.nodes, next.node, "a node");
+            if (visited[std::size_t(next.node)]) refuse("its nodes are no tree");
+            visited[std::size_t(next.node)] = true;
+            const glm::dmat4 m = next.parent * transform_of(node);
+            if (node.mesh >= 0) add_mesh(level, at(model.meshes, node.mesh, "a mesh"), m);
+            put(node.children, m);
+        }
     }
 
     void add_mesh(Level& level, const tinygltf::Mesh& mesh, const glm::dmat4& m) {
@@ -112,15 +147,18 @@ class GlbReader {
         };
         const Elements positions(model, accessor("POSITION"));
         if (base + positions.count() > UINT32_MAX) refuse("has too many vertices");
+        budget.take(positions.count());
         for (std::size_t v = 0; v < positions.count(); ++v)
             mesh.positions.emplace_back(m * glm::dvec4(positions.vec3(v), 1));
         add_normals(mesh, accessor("NORMAL"), m);
         add_colours(mesh, accessor("COLOR_0"), primitive.material);
         if (primitive.indices < 0) {
+            budget.take(triangle_count(primitive.mode, positions.count()));
             add_triangles(mesh, primitive.mode, positions.count(),
                           [&](std::size_t k) { return std::uint32_t(base + k); });
         } else {
             const Elements indices(model, primitive.indices);
+            budget.take(triangle_count(primitive.mode, indices.count()));
             add_triangles(mesh, primitive.mode, indices.count(), [&](std::size_t k) {
                 const double i = indices.get(k, 0);
                 if (!(i >= 0 && i < double(positions.count())))
@@ -128,6 +166,9 @@ class GlbReader {
                 return static_cast<std::uint32_t>(base + std::size_t(i));
             });
         }
+        if (glm::determinant(glm::dmat3(m)) < 0) // mirrored: what was outside stays so
+            for (std::size_t t = first; t < mesh.triangles.size(); ++t)
+                std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
         textures->add(primitive, mesh, base, first, glm::dmat3(m));
     }
 
@@ -153,7 +194,7 @@ class GlbReader {
             const auto& f = at(model.materials, material, "a material").pbrMetallicRoughness.baseColorFactor;
             if (f.size() >= 3) factor = {f[0], f[1], f[2]};
         }
-        if (accessor < 0 && factor == glm::dvec3(1)) colours = false;
+        colours = colours || accessor >= 0 || factor != glm::dvec3(1); // white beside others is a colour
         mesh.colours.resize(mesh.positions.size(), glm::vec3(1));
         for (std::size_t v = base; v < mesh.colours.size(); ++v)
             for (int k = 0; k < 3; ++k) mesh.colours[v][k] = to_display(float(factor[k]));
@@ -165,44 +206,15 @@ class GlbReader {
         }
     }
 
+    const GltfFile& file;
     const Model& model;
+    Budget budget;
     std::vector<bool> visited;
     TextureReader* textures = nullptr; ///< of the level that is read
     CopyJoiner copies;                 ///< likewise
-    bool normals = true, colours = true; ///< every primitive of the level has them
+    bool normals = true;  ///< every primitive of the level has them
+    bool colours = false; ///< one has
 };
-
-/// Pictures are decoded when a level turns out to need them.
-bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-    return true;
-}
-
-bool is_compressed(const GlbChunks& chunks) {
-    const auto used = chunks.json.find("extensionsUsed");
-    if (used == chunks.json.end() || !used->is_array()) return false;
-    return std::find(used->begin(), used->end(), meshopt_extension) != used->end();
-}
-
-Model load_plain(std::string_view bytes) {
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(no_image, nullptr);
-    Model model;
-    std::string error, warning;
-    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    if (!loader.LoadBinaryFromMemory(&model, &error, &warning, data, static_cast<unsigned>(bytes.size()))) {
-        error = error.substr(0, error.find('\n'));
-        refuse("is damaged or no glTF 2.0: " + error);
-    }
-    for (const std::string& extension : model.extensionsRequired)
-        if (extension != "KHR_mesh_quantization")
-            refuse("needs the extension " + extension + ", which is not read");
-    return model;
-}
-
-Model load(std::string_view bytes) {
-    const GlbChunks chunks = glb_chunks(bytes);
-    return is_compressed(chunks) ? load_plain(meshopt_decompressed(chunks)) : load_plain(bytes);
-}
 
 /// The nodes that MSFT_lod puts behind the only node of the scene.
 std::vector<int> further_levels(const Model& model, const std::vector<int>& shown) {
@@ -212,23 +224,40 @@ std::vector<int> further_levels(const Model& model, const std::vector<int>& show
     const auto found = extensions.find("MSFT_lod");
     if (found == extensions.end() || !found->second.IsObject() || !found->second.Has("ids")) return nodes;
     const Value& ids = found->second.Get("ids");
-    for (std::size_t k = 0; k < ids.ArrayLen(); ++k) nodes.push_back(ids.Get(int(k)).GetNumberAsInt());
+    std::set<int> named(shown.begin(), shown.end());
+    for (std::size_t k = 0; k < ids.ArrayLen(); ++k) {
+        const Value& id = ids.Get(int(k));
+        const double number = id.IsNumber() ? id.GetNumberAsDouble() : -1;
+        if (!(number >= 0 && number < double(model.nodes.size()))) refuse("refers to a node that is not there");
+        nodes.push_back(int(number));
+        if (!named.insert(nodes.back()).second) refuse("names a level twice");
+    }
     return nodes;
+}
+
+/// The nodes of the scene that is to be shown: that which the file says, else the first, else all that are nobody's
+/// children.
+std::vector<int> shown_nodes(const Model& model) {
+    if (!model.scenes.empty()) return at(model.scenes, std::max(model.defaultScene, 0), "a scene").nodes;
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes)
+        for (int child : node.children)
+            if (child >= 0 && std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = true;
+    std::vector<int> roots;
+    for (std::size_t k = 0; k < model.nodes.size(); ++k)
+        if (!is_child[k]) roots.push_back(int(k));
+    return roots;
 }
 
 } // namespace
 
-std::vector<Level> read_glb(std::string_view bytes) {
-    const Model model = load(bytes);
-    std::vector<int> shown;
-    if (!model.scenes.empty())
-        shown = at(model.scenes, std::max(model.defaultScene, 0), "a scene").nodes;
-    else
-        for (std::size_t k = 0; k < model.nodes.size(); ++k) shown.push_back(int(k));
-    GlbReader reader(model);
+std::vector<Level> read_glb(std::string_view bytes, const std::filesystem::path& path) {
+    const GltfFile file = load_gltf(bytes, path);
+    const std::vector<int> shown = shown_nodes(file.model);
+    GlbReader reader(file);
     std::vector<Level> levels;
     levels.push_back(reader.level(shown));
-    for (int node : further_levels(model, shown)) levels.push_back(reader.level({node}));
+    for (int node : further_levels(file.model, shown)) levels.push_back(reader.level({node}));
     for (std::size_t k = 0; k < levels.size(); ++k)
         if (levels[k].name.empty()) levels[k].name = "level " + std::to_string(k);
     return levels;

@@ -94,13 +94,9 @@ void TextureReader::add_corners(const tinygltf::Primitive& primitive, const Mesh
 Picture TextureReader::picture(int index) const {
     const int source = at(model.textures, index, "a texture").source;
     if (source < 0) return {}; // in an extension
-    const tinygltf::Image& image = at(model.images, source, "an image");
-    if (image.bufferView < 0 || (image.mimeType != "image/png" && image.mimeType != "image/jpeg")) return {};
-    const auto& view = at(model.bufferViews, image.bufferView, "a buffer view");
-    const auto& data = at(model.buffers, view.buffer, "a buffer").data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        refuse("has a picture beyond its buffer");
-    return decode_picture({reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength});
+    const std::string bytes = picture_bytes(file, source);
+    if (!bytes.starts_with("\x89PNG") && !bytes.starts_with("\xff\xd8")) return {}; // no PNG, no JPEG
+    return decode_picture(bytes);
 }
 
 void TextureReader::finish(Level& level) {

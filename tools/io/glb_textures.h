@@ -1,9 +1,9 @@
 // The texture of a level out of a .glb. Internal.
 #pragma once
 #include <glm/mat3x3.hpp>
-#include <tiny_gltf.h>
 #include <vector>
 
+#include "tools/io/gltf_file.h"
 #include "tools/mesh/level.h"
 
 namespace glcast::format {
@@ -12,7 +12,7 @@ namespace glcast::format {
 /// texture, as we write them. Colours of vertices, where there are none, are then taken from it.
 class TextureReader {
   public:
-    explicit TextureReader(const tinygltf::Model& model) : model(model) {}
+    explicit TextureReader(const GltfFile& file) : file(file), model(file.model) {}
 
     /// The primitive's vertices begin at `first_vertex` of the mesh, its triangles at `first_triangle`. To be
     /// called for every primitive.
@@ -26,6 +26,7 @@ class TextureReader {
     void add_corners(const tinygltf::Primitive& primitive, const Mesh& mesh, std::size_t first_vertex,
                      std::size_t first_triangle, const glm::dmat3& turn);
 
+    const GltfFile& file;
     const tinygltf::Model& model;
     Texture texture;
     int material = -1;

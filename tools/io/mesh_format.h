@@ -14,13 +14,13 @@
 
 namespace glcast::format {
 
-// Readers take the whole file and throw std::runtime_error without its name. Meshes need not be checked:
-// read_levels does.
-std::vector<Level> read_glb(std::string_view bytes);
-std::vector<Level> read_obj(std::string_view bytes);
-std::vector<Level> read_ply(std::string_view bytes);
-std::vector<Level> read_off(std::string_view bytes);
-std::vector<Level> read_stl(std::string_view bytes);
+// Readers take the whole file, and where it lies for what it names, and throw std::runtime_error without its name. Meshes
+// need not be checked: read_levels does.
+std::vector<Level> read_glb(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path& path);
 
 /// The files of a run, which appear together.
 class FileSet {
@@ -58,14 +58,13 @@ bool write_off(FileSet& files, const std::filesystem::path& path, const Level& l
 
 std::vector<Level> one_level(Mesh mesh);
 
-/// Where floats lose digits: a mesh so far from the origin that its own size is small beside its coordinates.
+/// Where floats lose digits that show: a mesh so far from the origin that its own size is small beside its coordinates.
 bool needs_doubles(const Mesh& mesh);
+/// Are all coordinates floats?
+bool floats_hold(const Mesh& mesh);
 
 /// Centre of the bounding box.
 glm::dvec3 centre(const Mesh& mesh);
-
-/// Triangles of a polygon, as a fan from its first corner.
-void add_fan(Mesh& mesh, std::span<const std::uint32_t> corners);
 
 // Display value (sRGB) to linear light and back, 0..1.
 float to_linear(float display);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "capture/output_file.h"
+#include "tools/io/input_file.h"
 #include "tools/io/mesh_format.h"
 
 namespace glcast {
@@ -43,9 +44,8 @@ bool needs_doubles(const Mesh& mesh) {
     return std::max({far.x, far.y, far.z}) > 16 * glm::length(hi - lo);
 }
 
-void add_fan(Mesh& mesh, std::span<const std::uint32_t> corners) {
-    for (std::size_t k = 2; k < corners.size(); ++k)
-        mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+bool floats_hold(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.positions, [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; });
 }
 
 // IEC 61966-2-1
@@ -56,7 +56,7 @@ float to_display(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::
 
 namespace {
 
-using Reader = std::vector<Level> (*)(std::string_view);
+using Reader = std::vector<Level> (*)(std::string_view, const std::filesystem::path&);
 /// A level to a file of the set, its texture to further ones.
 using Writer = bool (*)(format::FileSet& files, const std::filesystem::path& path, const Level& level);
 
@@ -69,6 +69,7 @@ struct Format {
 
 constexpr Format formats[] = {
     {".glb", format::read_glb, nullptr, true},
+    {".gltf", format::read_glb, nullptr, false},
     {".obj", format::read_obj, format::write_obj, false},
     {".ply", format::read_ply, format::write_ply, false},
     {".off", format::read_off, format::write_off, false},
@@ -80,17 +81,64 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .stl");
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off or (to read) .gltf or .stl");
 }
 
 std::string read_file(const std::filesystem::path& path) {
-    std::error_code code;
-    if (std::filesystem::is_directory(path, code)) format::refuse("is a folder");
-    std::ifstream file(path, std::ios::binary);
-    if (!file) format::refuse(std::strerror(errno));
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (bytes.empty()) format::refuse("the file is empty");
-    return bytes;
+    const InputFile file(path);
+    if (file.size() == 0) format::refuse("the file is empty");
+    const std::vector<char> bytes = file.read(0, file.size());
+    return {bytes.begin(), bytes.end()};
+}
+
+constexpr double farthest = 1.844e18; ///< Embree's: beyond it distances cannot be measured
+
+void check_positions(const Mesh& mesh) {
+    for (const glm::dvec3& p : mesh.positions) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            format::refuse("a position is not finite");
+        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > farthest)
+            format::refuse("a position is more than 1.8e18 from the origin: scale the mesh down");
+    }
+}
+
+/// Means of the normals of a vertex's triangles, by area.
+std::vector<glm::vec3> geometric_normals(const Mesh& mesh) {
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+    for (const Triangle& t : mesh.triangles) {
+        const glm::dvec3& a = mesh.positions[t[0]];
+        const glm::dvec3 area = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        for (const std::uint32_t v : t) sums[v] += area;
+    }
+    std::vector<glm::vec3> normals(sums.begin(), sums.end());
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        const double size = glm::length(sums[v]);
+        normals[v] = size > 0 && std::isfinite(size) ? glm::vec3(sums[v] / size) : glm::vec3(0, 0, 1);
+    }
+    return normals;
+}
+
+/// Of length 1; false when it has no direction.
+bool to_unit(glm::vec3& n) {
+    const double size = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    if (!(size > 0) || !std::isfinite(glm::dot(n, glm::vec3(1)))) return false;
+    n = glm::vec3(glm::normalize(glm::dvec3(n) / size));
+    return true;
+}
+
+/// Normals without a direction get the surface's.
+void unit_normals(Level& level) {
+    std::vector<glm::vec3> geometric;
+    const auto mend = [&](glm::vec3& n, std::uint32_t vertex) {
+        if (to_unit(n)) return;
+        if (geometric.empty()) geometric = geometric_normals(level.mesh);
+        n = geometric[vertex];
+    };
+    for (std::size_t v = 0; v < level.mesh.normals.size(); ++v) mend(level.mesh.normals[v], std::uint32_t(v));
+    if (level.wedges.normals.empty()) return;
+    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            mend(level.wedges.normals[level.wedges.corners[t][k]], level.mesh.triangles[t][k]);
 }
 
 /// What must be true of a mesh from anywhere: corners that exist, finite positions, unit normals, colours in
@@ -104,17 +152,11 @@ void tidy(Level& level) {
             if (v >= vertices)
                 format::refuse("a face has corner " + std::to_string(v) + " of " + std::to_string(vertices) +
                                " vertices");
-    for (const glm::dvec3& p : mesh.positions)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            format::refuse("a position is not finite");
+    check_positions(mesh);
     if (mesh.normals.size() != vertices) mesh.normals.clear();
     if (mesh.colours.size() != vertices) mesh.colours.clear();
     if (!fits(mesh, level.wedges)) level.wedges = {};
-    for (auto* normals : {&mesh.normals, &level.wedges.normals})
-        for (glm::vec3& n : *normals) {
-            const float length = glm::length(n);
-            n = std::isfinite(length) && length > 0 ? n / length : glm::vec3(0, 0, 1);
-        }
+    unit_normals(level);
     for (auto* colours : {&mesh.colours, &level.wedges.colours})
         for (glm::vec3& c : *colours)
             for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
@@ -143,9 +185,11 @@ void write_split(format::FileSet& files, const std::filesystem::path& path, std:
 std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
-        std::vector<Level> levels = f.read(read_file(path));
+        std::vector<Level> levels = f.read(read_file(path), path);
         for (Level& level : levels) tidy(level);
         return levels;
+    } catch (const std::bad_alloc&) {
+        throw; // no fault of the file
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());
     }

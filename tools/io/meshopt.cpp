@@ -40,10 +40,14 @@ std::size_t size_in(const Json& object, const char* name, std::size_t otherwise 
     return found->get<std::size_t>();
 }
 
-/// Of its bytes what a view says.
-std::string_view part(std::string_view bytes, const Json& view) {
-    const std::size_t offset = size_in(view, "byteOffset"), length = size_in(view, "byteLength");
-    if (size_in(view, "buffer") != 0) refuse("refers to a buffer that is not there");
+using Buffers = std::vector<std::string_view>;
+
+/// Of its buffer what a view says.
+std::string_view part(const Buffers& buffers, const Json& view) {
+    const std::size_t offset = size_in(view, "byteOffset"), length = size_in(view, "byteLength"),
+                      buffer = size_in(view, "buffer");
+    if (buffer >= buffers.size()) refuse("refers to a buffer that is not there");
+    const std::string_view bytes = buffers[buffer];
     if (offset > bytes.size() || length > bytes.size() - offset)
         refuse("has a buffer view beyond its buffer");
     return bytes.substr(offset, length);
@@ -208,7 +212,7 @@ std::string meshopt_compressed(std::string_view file) {
     std::size_t whole = 0; // of the buffer that there would be without compression
     for (std::size_t k = 0; k < planned.size(); ++k) {
         Json& view = gltf["bufferViews"][k];
-        const std::string_view data = part(chunks.bytes, view);
+        const std::string_view data = part({chunks.bytes}, view);
         align(bytes);
         if (planned[k].count == 0) {
             view["byteOffset"] = bytes.size();
@@ -238,27 +242,27 @@ std::string meshopt_compressed(std::string_view file) {
     return glb_file(gltf, bytes);
 }
 
-std::string meshopt_decompressed(const GlbChunks& chunks) try {
-    Json gltf = chunks.json;
+std::string meshopt_decompressed(Json& gltf, const Buffers& buffers) try {
+    std::size_t most = 65536; // what all of it may become: views may share their bytes
+    for (const std::string_view buffer : buffers) most += best_ratio * buffer.size();
     std::string bytes;
     for (Json& view : gltf.at("bufferViews")) {
         align(bytes);
         const std::size_t offset = bytes.size();
         if (view.contains("extensions") && view["extensions"].contains(meshopt_extension)) {
             const Json how = view["extensions"][meshopt_extension];
-            bytes += decoded(part(chunks.bytes, how), how);
+            bytes += decoded(part(buffers, how), how);
             view.erase("extensions");
         } else
-            bytes += part(chunks.bytes, view);
+            bytes += part(buffers, view);
+        if (bytes.size() > most) refuse("is damaged: more vertices than its bytes can hold");
         view["buffer"] = 0;
         view["byteOffset"] = offset;
         view["byteLength"] = bytes.size() - offset;
     }
-    align(bytes);
-    gltf["buffers"] = Json::array({{{"byteLength", bytes.size()}}});
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
         drop_name(gltf, list, meshopt_extension);
-    return glb_file(gltf, bytes);
+    return bytes;
 } catch (const Json::exception&) {
     refuse("is damaged: its compression is not described as it must be");
 }

@@ -1,6 +1,8 @@
 // Reading numbers and words out of text, quickly and with line numbers for messages.
 #pragma once
 #include <charconv>
+#include <cstdlib>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -10,13 +12,15 @@ namespace glcast::format {
 
 class TextCursor {
   public:
-    explicit TextCursor(std::string_view text) : rest(text) {}
+    explicit TextCursor(std::string_view text) : rest(text) {
+        if (text.find('\n') == text.npos) line_end = '\r'; // as old Macs had it
+    }
 
     /// The next line less its end, comments from `comment` on and spaces around it; false at the end of the
     /// text.
     bool next_line(std::string_view& line, char comment = '#') {
         if (rest.empty()) return false;
-        const std::size_t end = rest.find('\n');
+        const std::size_t end = rest.find(line_end);
         line = rest.substr(0, end);
         rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
         ++number;
@@ -33,6 +37,7 @@ class TextCursor {
     }
 
     std::string_view remaining() const { return rest; }
+    std::size_t line() const { return number; } ///< the last that was read, from 1
     std::string here() const { return "line " + std::to_string(number) + ": "; }
     [[noreturn]] void fail(const std::string& why) const { refuse(here() + why); }
 
@@ -51,10 +56,25 @@ class TextCursor {
         return w;
     }
 
+    /// Of numbers beyond a double: infinite or 0. No numbers and infinities are understood as C++, C and Visual C++
+    /// write them: nan, -nan(ind), inf, 1.#QNAN.
     template <class T> static bool parse(std::string_view word, T& value) {
         if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        return error == std::errc() && end == word.data() + word.size();
+        const char* const last = word.data() + word.size();
+        const auto [end, error] = std::from_chars(word.data(), last, value);
+        if constexpr (std::is_floating_point_v<T>) {
+            if (error == std::errc::result_out_of_range && end == last) {
+                value = static_cast<T>(std::strtod(std::string(word).c_str(), nullptr));
+                return true;
+            }
+            if (const std::size_t sharp = word.find(".#"); sharp != word.npos) {
+                const bool infinite = word.substr(sharp + 2).starts_with("INF");
+                value = infinite ? std::numeric_limits<T>::infinity() : std::numeric_limits<T>::quiet_NaN();
+                if (infinite && word[0] == '-') value = -value;
+                return true;
+            }
+        }
+        return error == std::errc() && end == last;
     }
 
     /// The next number on `line`, which must be there.
@@ -69,6 +89,7 @@ class TextCursor {
   private:
     static constexpr const char* spaces = " \t\r\f\v";
     std::string_view rest;
+    char line_end = '\n';
     std::size_t number = 0;
 };
 
@@ -82,12 +103,9 @@ class Gather {
         return *this;
     }
     Gather& operator<<(char c) { return *this << std::string_view(&c, 1); }
-    /// Nine digits: every float, and a double to a billionth.
-    Gather& operator<<(double value) {
-        char text[40];
-        const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9);
-        return *this << std::string_view(text, result.ptr - text);
-    }
+    /// The shortest text that is read back as the same number.
+    Gather& operator<<(double value) { return shortest(value); }
+    Gather& operator<<(float value) { return shortest(value); }
     Gather& operator<<(std::size_t value) {
         char text[24];
         return *this << std::string_view(text, std::to_chars(text, text + sizeof text, value).ptr - text);
@@ -102,6 +120,12 @@ class Gather {
     }
 
   private:
+    template <class T> Gather& shortest(T value) {
+        char text[40];
+        const auto result = std::to_chars(text, text + sizeof text, value);
+        return *this << std::string_view(text, result.ptr - text);
+    }
+
     static constexpr std::size_t piece = 1u << 20;
     OutputFile& file;
     std::string buffer;

@@ -166,10 +166,15 @@ MeshCheck check_vertices(const Mesh& mesh, Corners& corners) {
 
 } // namespace
 
+static void count_crossings(const Mesh& mesh, MeshCheck& check) {
+    const PairCount count = count_pairs_that_meet(mesh.positions, mesh.triangles);
+    check.self_intersections = count.pairs;
+    check.more_self_intersections = !count.complete;
+}
+
 MeshCheck check_mesh(const Mesh& mesh, CheckDepth depth) {
     MeshCheck check;
-    if (depth == CheckDepth::everything)
-        check.self_intersections = count_self_intersections(mesh.positions, mesh.triangles);
+    if (depth == CheckDepth::everything) count_crossings(mesh, check);
     check.vertices = mesh.positions.size();
     check.triangles = mesh.triangles.size();
     std::optional<Corners> corners;
@@ -211,6 +216,8 @@ std::string describe(const MeshCheck& check) {
     std::string text = describe_topology(check);
     if (!check.self_intersections) return text;
     const std::size_t pairs = *check.self_intersections;
+    if (check.more_self_intersections)
+        return text + ", more than " + std::to_string(pairs) + " self-intersections";
     text += pairs ? ", " + std::to_string(pairs) : ", no";
     return text + (pairs == 1 ? " self-intersection" : " self-intersections");
 }

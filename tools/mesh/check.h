@@ -20,6 +20,7 @@ struct MeshCheck {
     /// Pairs of triangles that meet elsewhere than where they are joined (intersections.h); unset when not
     /// counted.
     std::optional<std::size_t> self_intersections;
+    bool more_self_intersections = false; ///< there are more than that: counting stopped
 
     bool closed_manifold() const {
         return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0 &&

@@ -17,6 +17,7 @@ inline constexpr ErrorName error_names[] = {
     {"colourMean", &LevelError::colour_mean},
     {"colourP999", &LevelError::colour_p999},
     {"unsupportedAreaShare", &LevelError::unsupported_area_share},
+    {"disagreeingNormalsShare", &LevelError::disagreeing_normals_share},
 };
 
 } // namespace glcast

@@ -91,7 +91,8 @@ void Tree::sort(std::span<const std::uint32_t> which) {
         const glm::dvec3 centre = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0;
         std::uint32_t key = 0;
         for (int k = 0; k < 3; ++k)
-            key |= spread_bits(std::uint32_t(std::clamp((centre[k] - lo[k]) / size[k], 0.0, 1.0) * 1023)) << k;
+            key |= spread_bits(std::uint32_t(std::clamp((centre[k] - lo[k]) / size[k], 0.0, 1.0) * 1023))
+                   << k;
         keys[i] = {key, which[i]};
     });
     tbb::parallel_sort(keys.begin(), keys.end());
@@ -143,10 +144,12 @@ void Tree::overlapping(const Bounds& wanted, std::vector<Boxed>& out) const {
     }
 }
 
-/// found(probe, other) for each pair that meets; a pair of two probes comes once.
-template <class Found>
+/// found(probe, other) for each pair that meets; a pair of two probes comes once. goes_on(tests) is asked
+/// behind each probe, with the pairs that it was tested in, whether to go on.
+template <class Found, class GoesOn>
 void for_pairs(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
-               std::span<const std::uint32_t> probes, std::span<const std::uint32_t> others, Found found) {
+               std::span<const std::uint32_t> probes, std::span<const std::uint32_t> others, Found found,
+               GoesOn goes_on) {
     const Tree tree(positions, triangles, others);
     std::vector<bool> is_probe(triangles.size());
     for (std::uint32_t t : probes) is_probe[t] = true;
@@ -163,12 +166,14 @@ void for_pairs(std::span<const glm::dvec3> positions, std::span<const Triangle> 
             });
             if (mine.empty()) continue;
             tree.overlapping(all, near);
-            for (const auto& [probe, bounds] : mine)
+            for (const auto& [probe, bounds] : mine) {
+                if (!goes_on(near.size())) return;
                 for (const auto& [other, other_bounds] : near) {
                     if (!bounds.overlaps(other_bounds) || other == probe) continue;
                     if (other < probe && is_probe[other]) continue;
                     if (triangles_meet(positions, triangles[probe], triangles[other])) found(probe, other);
                 }
+            }
         }
     });
 }
@@ -192,9 +197,10 @@ std::vector<TrianglePair> find_intersections_of(std::span<const glm::dvec3> posi
                                                 std::span<const std::uint32_t> probes,
                                                 std::span<const std::uint32_t> others) {
     tbb::enumerable_thread_specific<std::vector<TrianglePair>> found;
-    for_pairs(positions, triangles, probes, others, [&](std::uint32_t a, std::uint32_t b) {
-        found.local().emplace_back(std::min(a, b), std::max(a, b));
-    });
+    for_pairs(
+        positions, triangles, probes, others,
+        [&](std::uint32_t a, std::uint32_t b) { found.local().emplace_back(std::min(a, b), std::max(a, b)); },
+        [](std::size_t) { return true; });
     std::vector<TrianglePair> pairs;
     for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
     std::sort(pairs.begin(), pairs.end());
@@ -207,12 +213,27 @@ std::vector<TrianglePair> find_self_intersections(std::span<const glm::dvec3> po
     return find_intersections_of(positions, triangles, all, all);
 }
 
+PairCount count_pairs_that_meet(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles) {
+    const std::vector<std::uint32_t> all = usable(positions, triangles);
+    const std::size_t most_tests = 10'000'000 + 400 * triangles.size();
+    std::atomic<std::size_t> pairs = 0, tests = 0;
+    const auto within = [&] {
+        return pairs.load(std::memory_order_relaxed) <= most_pairs_counted &&
+               tests.load(std::memory_order_relaxed) <= most_tests;
+    };
+    for_pairs(
+        positions, triangles, all, all, [&](std::uint32_t, std::uint32_t) { ++pairs; },
+        [&](std::size_t more) {
+            tests.fetch_add(more, std::memory_order_relaxed);
+            return within();
+        });
+    if (within()) return {pairs, true};
+    return {std::min<std::size_t>(pairs, most_pairs_counted), false}; // how many more hangs on the threads
+}
+
 std::size_t count_self_intersections(std::span<const glm::dvec3> positions,
                                      std::span<const Triangle> triangles) {
-    const std::vector<std::uint32_t> all = usable(positions, triangles);
-    std::atomic<std::size_t> count = 0;
-    for_pairs(positions, triangles, all, all, [&](std::uint32_t, std::uint32_t) { ++count; });
-    return count;
+    return count_pairs_that_meet(positions, triangles).pairs;
 }
 
 } // namespace glcast

@@ -24,7 +24,19 @@ std::vector<TrianglePair> find_intersections_of(std::span<const glm::dvec3> posi
                                                 std::span<const std::uint32_t> probes,
                                                 std::span<const std::uint32_t> others);
 
-/// How many pairs find_self_intersections() would find, without holding them.
+struct PairCount {
+    std::size_t pairs = 0;
+    bool complete = true; ///< else there are more: counting stopped
+};
+
+inline constexpr std::size_t most_pairs_counted = 1'000'000;
+
+/// How many pairs find_self_intersections() would find, without holding them, up to most_pairs_counted: of n
+/// triangles that lie on one another there are n². Pairs that are near but do not meet are bounded too, by 10
+/// million and 400 a triangle.
+PairCount count_pairs_that_meet(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles);
+
+/// The pairs of count_pairs_that_meet().
 std::size_t count_self_intersections(std::span<const glm::dvec3> positions,
                                      std::span<const Triangle> triangles);
 

@@ -14,6 +14,7 @@ struct LevelError {
     double normal_mean_degrees = 0;     ///< between the normals as shown (of vertices, or of the texture)
     double colour_mean = 0, colour_p999 = 0; ///< largest difference of a channel, display values, 0..1
     double unsupported_area_share = 0;  ///< of level 0: surface that no ray saw, 0..1
+    double disagreeing_normals_share = 0; ///< of level 0: where drawn normals are kept that are far off the surface, 0..1
 };
 
 /// One level of detail, finest first.

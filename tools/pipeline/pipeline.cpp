@@ -8,6 +8,7 @@
 
 #include "capture/output_file.h"
 #include "tools/deviation/level_error.h"
+#include "tools/io/mesh_endings.h"
 #include "tools/io/capture_reader.h"
 #include "tools/pipeline/progressive_output.h"
 #include "tools/pipeline/textures.h"
@@ -145,12 +146,22 @@ void Run::make_levels() {
     made.seconds.simplify = watch.seconds();
 }
 
-/// Textures hide what lies inside outlines. Not levels that a progressive mesh or a measured limit binds.
+/// Outlines are most of what differs where textures hide the rest; elsewhere only levels that come to lie no farther
+/// from the surface keep it. Not levels of a progressive mesh, nor textured ones that a limit binds.
 void Run::lay_outlines() {
-    if (!options.texture || !options.progressive.empty() || !options.max_error.empty()) return;
+    if (!options.progressive.empty() || made.levels.size() < 2) return;
     const Stopwatch watch;
+    const bool freely = options.texture && options.max_error.empty();
+    std::optional<LevelMeter> meter;
     for (std::size_t k = 1; k < made.levels.size(); ++k) {
-        fit_outlines(made.levels[k].mesh, captured);
+        Level laid = made.levels[k];
+        if (!fit_outlines(laid.mesh, captured)) continue;
+        if (!freely) {
+            if (!meter) meter.emplace(made.levels[0]);
+            const LevelError before = meter->measure(made.levels[k]), after = meter->measure(laid);
+            if (after.p999 > before.p999 || after.max > before.max) continue;
+        }
+        made.levels[k].mesh = std::move(laid.mesh);
         made.checks[k] = check_mesh(made.levels[k].mesh, options.check);
     }
     made.seconds.simplify += watch.seconds();
@@ -180,6 +191,8 @@ void Run::bake_textures() {
 void Run::measure() {
     const Stopwatch watch;
     made.levels[0].error.unsupported_area_share = made.surface.unsupported_area_share;
+    if (!options.surface.geometric_normals)
+        made.levels[0].error.disagreeing_normals_share = made.surface.disagreeing_normals_share;
     std::optional<Level> exact;
     if (options.compression != Compression::none) {
         exact = made.levels[0];
@@ -229,9 +242,8 @@ void Run::measure_and_write(const std::filesystem::path& output) {
 } // namespace
 
 void check_output(const std::filesystem::path& output, const PipelineOptions& options) {
-    static const std::string writable[] = {".glb", ".obj", ".ply", ".off"};
-    if (std::find(std::begin(writable), std::end(writable), output.extension()) == std::end(writable))
-        throw std::runtime_error("cannot write '" + output.string() + "': name it .glb, .obj, .ply or .off");
+    if (!has_mesh_ending(output))
+        throw std::runtime_error("cannot write '" + output.string() + "': name it " + listed_mesh_endings());
     if (!is_glb(output) && (options.split || options.compression != Compression::none))
         throw std::runtime_error("--compress and --split are for .glb alone: name the output .glb");
     if (const std::string why = why_not_writable(output.string()); !why.empty())

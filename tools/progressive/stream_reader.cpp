@@ -229,6 +229,8 @@ ProgressiveFile read_progressive(const std::filesystem::path& path) {
 }
 
 bool looks_like_progressive(const std::filesystem::path& path) {
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown)) return false; // a FIFO would make us wait
     std::ifstream in(path, std::ios::binary);
     char start[sizeof progressive::magic] = {};
     return in.read(start, sizeof start) && std::memcmp(start, progressive::magic, sizeof start) == 0;

@@ -17,6 +17,7 @@ constexpr double reach = 8;              // samples along a ray to a hit that ma
 constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a sheet
 constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
 constexpr double reach_of_closing = 2;   // samples between a vertex and the closing that it belongs to
+constexpr float disagreement = 0.5f;     // cosine, 60 degrees: no shading of coarse facets bends normals so far
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
 struct Pixel {
@@ -123,6 +124,17 @@ std::vector<glm::vec3> surface_normals(const Mesh& mesh) {
     return normals;
 }
 
+double share_of_area(const Mesh& mesh, const std::vector<std::uint8_t>& marked) {
+    double area = 0, marked_area = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const glm::dvec3& p = mesh.positions[t[0]];
+        const double size = glm::length(glm::cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p));
+        area += 3 * size;
+        marked_area += (marked[t[0]] + marked[t[1]] + marked[t[2]]) * size;
+    }
+    return area > 0 ? marked_area / area : 0;
+}
+
 /// Colours spread along the surface from where they are known, a ring of vertices at a time.
 void spread_colours(Mesh& mesh, std::vector<std::uint8_t>& known) {
     std::vector<std::array<std::uint32_t, 2>> links; // unknown vertex, one of its neighbours
@@ -218,10 +230,10 @@ Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& 
     return {};
 }
 
-std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
+Sampled sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
     mesh.normals = surface_normals(mesh);
     mesh.colours.assign(mesh.positions.size(), glm::vec3(0.5f));
-    std::vector<std::uint8_t> known(mesh.positions.size());
+    std::vector<std::uint8_t> known(mesh.positions.size()), disagree(mesh.positions.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, known.size(), 2048), [&](const auto& range) {
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
             Attribute found = sample_point(rays, mesh.positions[v], mesh.normals[v]);
@@ -229,16 +241,17 @@ std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals
             if (!seen) found = behind_closing(rays, mesh.positions[v], mesh.normals[v]);
             if (!found.found) continue;
             known[v] = seen ? 1 : 2;
+            disagree[v] = seen && found.normal != glm::vec3(0) && glm::dot(found.normal, found.plane) < disagreement;
             mesh.colours[v] = found.colour;
             if (!geometric_normals && found.normal != glm::vec3(0)) mesh.normals[v] = found.normal;
         }
     });
     const std::size_t missing = known.size() - std::size_t(std::count(known.begin(), known.end(), 1));
     if (missing) spread_colours(mesh, known);
-    return missing;
+    return {missing, share_of_area(mesh, disagree)};
 }
 
-std::size_t sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals) {
+Sampled sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals) {
     const std::size_t vertices = mesh.positions.size();
     std::vector<glm::vec3> drawn(vertices, glm::vec3(0));
     std::vector<std::uint8_t> squares(vertices);
@@ -266,7 +279,7 @@ std::size_t sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals)
     }
     const std::size_t missing = std::count(known.begin(), known.end(), 0);
     if (missing) spread_colours(mesh, known);
-    return missing;
+    return {missing, 0}; // squares lie along the axes whatever was drawn
 }
 
 } // namespace glcast

@@ -17,13 +17,19 @@ struct Attribute {
 /// among the pixels that agree.
 Attribute sample_point(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal);
 
-/// Fills normals (unit) and colours of a contour; positions in samples. Returns how many vertices no pixel
-/// agrees with: where they close an opening, they have colour and normal of what lies behind it (behind.h);
+/// What came of it.
+struct Sampled {
+    std::size_t missing = 0;              ///< vertices that no pixel agrees with
+    double disagreeing_normals_share = 0; ///< ReconstructReport::disagreeing_normals_share
+};
+
+/// Fills normals (unit) and colours of a contour; positions in samples. Where no pixel agrees with vertices
+/// that close an opening, they have colour and normal of what lies behind it (behind.h);
 /// else their colour is the nearest one along the surface, their normal that of the surface.
-std::size_t sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals);
+Sampled sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals);
 
 /// The same for the paper's squares (triangles 2 q and 2 q + 1 are square q): a square has the colour and
 /// normal of its pixel, a vertex the mean of its squares.
-std::size_t sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals);
+Sampled sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals);
 
 } // namespace glcast

@@ -89,8 +89,10 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     assert_manifold(mesh.triangles, mesh.positions.size());
     made.surface_seconds = watch.lap();
 
-    made.vertices_without_pixel = cubes ? sample_squares(rays, mesh, options.geometric_normals)
-                                        : sample_vertices(rays, mesh, options.geometric_normals);
+    const Sampled sampled = cubes ? sample_squares(rays, mesh, options.geometric_normals)
+                                  : sample_vertices(rays, mesh, options.geometric_normals);
+    made.vertices_without_pixel = sampled.missing;
+    made.disagreeing_normals_share = sampled.disagreeing_normals_share;
     if (!captured) rays.volume = {};
     to_capture_frame(mesh, frame);
     made.attribute_seconds = watch.lap();

@@ -44,6 +44,9 @@ struct ReconstructReport {
     double unsupported_area_share = 0;     ///< of the surface's area, what lies about such crossings
     std::size_t vertices_without_pixel =
         0; ///< colour of a neighbour on the surface, normal of the surface itself, or those behind a closing
+    /// Of the surface's area: where the normal that was drawn is more than 60 degrees off the surface that was
+    /// drawn. What is lit by such normals looks right in the program's own light alone. 0 for cubes.
+    double disagreeing_normals_share = 0;
     MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;
 };

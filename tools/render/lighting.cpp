@@ -11,8 +11,7 @@ float light_on(const glm::vec3& normal, const OrthoView& view) {
     if (normal == glm::vec3(0)) return 1;
     const glm::dvec3 n(normal);
     const glm::vec3 eye(dot(n, view.right), dot(n, view.up), dot(n, view.back));
-    const float towards = glm::dot(eye, glm::normalize(towards_light)) * (eye.z < 0 ? -1.0f : 1.0f);
-    return ambient_light + diffuse_light * std::max(0.0f, towards);
+    return ambient_light + diffuse_light * std::max(0.0f, glm::dot(eye, glm::normalize(towards_light)));
 }
 
 /// Pixel of the image along one of its axes; -1 outside.

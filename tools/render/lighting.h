@@ -16,7 +16,8 @@ inline constexpr float tile_grey = 0.95F;
 /// A square view along `direction`, y up (along y, z), of what lies within `half` of `centre` to every side.
 OrthoView square_view(const glm::dvec3& direction, const glm::dvec3& centre, double half, int pixels);
 
-/// RGBA, row 0 at the bottom, as OSMesa has it. Normals count towards the viewer; what has none has no light.
+/// RGBA, row 0 at the bottom, as OSMesa has it. As OSMesa lights: by the normal as it is, also
+/// where it was drawn away from the viewer; what has none has no light.
 std::vector<std::uint8_t> lit_rgba(const SeenImage& seen, const OrthoView& view);
 
 /// What one of the six views captured, laid into a view along its axis: nearest pixels.

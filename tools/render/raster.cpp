@@ -101,7 +101,13 @@ class Shader {
         return mix(corner_colours(mesh, wedges, at.triangle), at.b, at.c);
     }
 
-    glm::vec3 normal(const Fragment& at) const {
+    /// GL's two-sided light, which turns normals over by the winding and not by themselves.
+    glm::vec3 normal(const Fragment& at, const glm::dvec3& back) const {
+        return glm::dot(glm::dvec3(face(at)), back) < 0 ? -front_normal(at) : front_normal(at);
+    }
+
+  private:
+    glm::vec3 front_normal(const Fragment& at) const {
         if (!has_normals(mesh, wedges)) return face(at);
         const std::array<glm::vec3, 3> normals = corner_normals(mesh, wedges, at.triangle);
         const glm::vec3 smooth = unit(mix(normals, at.b, at.c));
@@ -118,7 +124,6 @@ class Shader {
         return unit(along * bent.x + across * bent.y + smooth * bent.z);
     }
 
-  private:
     glm::vec2 coordinates(const Fragment& at) const {
         return mix(texture.coordinates[at.triangle], at.b, at.c);
     }
@@ -155,7 +160,7 @@ SeenImage rasterise(const Mesh& mesh, const Texture& texture, const Wedges& wedg
         if (pixels[p].triangle == nothing) continue;
         image.covered[p] = 1;
         image.colour[p] = shader.colour(pixels[p]);
-        image.normal[p] = shader.normal(pixels[p]);
+        image.normal[p] = shader.normal(pixels[p], view.back);
     }
     return image;
 }

@@ -22,7 +22,8 @@ struct SeenImage {
     int width = 0, height = 0;
     std::vector<char> covered;
     std::vector<glm::vec3> colour; ///< display values, 0..1
-    std::vector<glm::vec3> normal; ///< model space, unit; 0 where the mesh has none
+    std::vector<glm::vec3> normal; ///< model space, unit; 0 where the mesh has none; turned over where the back of a
+                                   ///< triangle is seen
 };
 
 /// The nearest surface of each pixel, either side of a triangle. Normals are those of wedges or vertices, turned by

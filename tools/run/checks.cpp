@@ -14,6 +14,8 @@
 #include <sstream>
 #include <vector>
 
+#include "capture/output_file.h"
+
 namespace glcast::run {
 namespace fs = std::filesystem;
 namespace {
@@ -73,30 +75,15 @@ std::string check_output(const fs::path& file) {
     if (fs::is_directory(file, ignored)) {
         return "cannot write " + file.string() + ": it is a folder";
     }
-    if (fs::is_other(file, ignored)) {
-        return "cannot write " + file.string() + ": it is a device, a pipe or a socket";
+    if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+        return "cannot write " + file.string() + ": it is no regular file";
     }
     if (fs::exists(file, ignored) && access(file.c_str(), W_OK) != 0) {
         return "cannot write " + file.string() + ": " + reason(errno);
     }
-    // Permission bits do not tell the truth to root nor on a read-only file system, so try.
-    // Without a name where the file system can: killed just now, we leave nothing.
-    const int unnamed = open(file.parent_path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-    if (unnamed >= 0) {
-        close(unnamed);
-        return {};
-    }
-    if (errno != EOPNOTSUPP && errno != EISDIR) { // EISDIR: a kernel that does not know O_TMPFILE there
-        return "cannot write " + file.string() + ": " + reason(errno);
-    }
-    std::string trial = (file.parent_path() / ".glcast-XXXXXX").string();
-    const int descriptor = mkstemp(trial.data());
-    if (descriptor < 0) {
-        return "cannot write " + file.string() + ": " + reason(errno);
-    }
-    close(descriptor);
-    unlink(trial.c_str());
-    return {};
+    // Permission bits do not tell the truth to root nor on a read-only file system, so try: without a name where that can be
+    // done, so that nothing is left when we are killed meanwhile.
+    return why_not_writable(file);
 }
 
 std::string check_program(const fs::path& program) {

@@ -10,15 +10,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <optional>
 #include <sstream>
 
 #include "tools/run/checks.h"
 #include "tools/run/display.h"
+#include "tools/run/mesh_step.h"
 #include "tools/run/options.h"
 #include "tools/run/process.h"
 #include "tools/run/progress.h"
+#include "tools/run/report.h"
 #include "tools/run/status.h"
 
 namespace {
@@ -26,27 +27,36 @@ using namespace glcast::run;
 namespace fs = std::filesystem;
 
 constexpr int end_grace_ms = 3'000;
+constexpr const char* interrupted = "interrupted";
 
-int fail(const std::string& why) {
-    std::cerr << "glcast-run: " << why << '\n';
-    return 1;
-}
+/// What is wrong, and the exit status that it means.
+struct Trouble {
+    std::string why;
+    int status = 1;
+};
 
-std::string check_all(const Options& options, const fs::path& program, const fs::path& shim) {
+Trouble check_program_and_shim(const Options& options, const fs::path& program, const fs::path& shim) {
     if (shim.empty()) {
-        return "cannot find libglcast.so beside glcast-run nor in the library folder; GLCAST_LIBRARY can "
-               "name it";
+        return {"cannot find libglcast.so beside glcast-run nor in the library folder; GLCAST_LIBRARY can "
+                "name it"};
     }
     if (program.empty()) {
-        return "cannot run " + options.program[0] + ": no such program in PATH";
+        return {"cannot run " + options.program[0] + ": no such program in PATH"};
     }
-    if (const std::string trouble = check_program(program); !trouble.empty()) {
-        return trouble;
+    return {check_program(program)};
+}
+
+/// Of a mesh `glcast mesh` is asked, with all its options.
+Trouble check_outputs(const Options& options, const std::string& capture, const MeshStep* meshes) {
+    if (options.list) {
+        return {options.list_picture.empty() ? "" : check_output(options.list_picture)};
     }
-    if (!options.list_picture.empty()) {
-        return check_output(options.list_picture);
+    Trouble trouble;
+    if (meshes != nullptr) {
+        trouble.status = meshes->rehearse(trouble.why);
+        if (trouble.status != 0) return trouble;
     }
-    return options.output.empty() ? "" : check_output(options.output);
+    return {meshes == nullptr || options.keep_capture ? check_output(capture) : ""};
 }
 
 /// Other preloads are kept, behind ours. The loader splits at spaces and colons, so a path with one goes
@@ -60,9 +70,9 @@ std::string compose_preload(fs::path shim, const fs::path& scratch) {
     return shim.string() + (others != nullptr && *others != '\0' ? ":" + std::string(others) : "");
 }
 
-Environment environment(const Options& options, const StatusPipe& pipe, const fs::path& shim,
+Environment environment(const Options& options, const std::string& capture, const StatusPipe& pipe, const fs::path& shim,
                         const Display& display) {
-    Environment changes = shim_variables(options, pipe.path());
+    Environment changes = shim_variables(options, capture, pipe.path());
     changes.emplace_back("LD_PRELOAD", compose_preload(shim, pipe.scratch()));
     if (options.headless) {
         changes.insert(
@@ -81,32 +91,37 @@ int poll_timeout(const Options& options, std::chrono::steady_clock::time_point s
     return static_cast<int>(std::max(0.0, (options.timeout_seconds - spent.count()) * 1000 + 1));
 }
 
+/// A signal that came to us, other than of children; 0: none.
+int read_signals(int signals) {
+    int number = 0;
+    signalfd_siginfo signal{};
+    while (read(signals, &signal, sizeof signal) == sizeof signal) {
+        if (signal.ssi_signo != SIGCHLD) number = static_cast<int>(signal.ssi_signo);
+    }
+    return number;
+}
+
 /// Waits for whichever is first: the cast (with --quit), the program's end, the time limit, a signal to us.
-/// Returns how it ended, to be said when there was no cast.
+/// Returns how it ended, to be said when there was no cast. `progress`: called after whatever happened.
 std::string wait_for_cast(const Options& options, Program& program, StatusPipe& pipe, int signals, Seen& seen,
-                          const std::function<void()>& finished) {
+                          const std::function<void()>& progress) {
     const auto started = std::chrono::steady_clock::now();
-    ProgressLine progress;
+    ProgressLine line;
     for (;;) {
-        progress.show(seen);
+        line.show(seen);
         const bool waiting = !seen.finished(options.captures); // the time limit is for the cast, not for the program
         pollfd events[] = {{pipe.file_descriptor(), POLLIN, 0}, {signals, POLLIN, 0}};
         const int ready = poll(events, 2, waiting ? poll_timeout(options, started) : -1);
-        signalfd_siginfo signal{};
-        while (read(signals, &signal, sizeof signal) == sizeof signal) {
-            if (signal.ssi_signo != SIGCHLD) {
-                program.signal(static_cast<int>(signal.ssi_signo));
-                pipe.read_into(seen);
-                return "interrupted";
-            }
+        if (const int signal = read_signals(signals)) {
+            program.signal(signal);
+            pipe.read_into(seen);
+            return interrupted;
         }
         program.reap();
         const bool alive = program.alive(); // before the last look at the pipe, so that no line is missed
         pipe.read_into(seen);
-        if (waiting && seen.finished(options.captures)) {
-            progress.clear();
-            finished();
-        }
+        line.clear();
+        progress();
         if (options.quit && seen.finished(options.captures)) {
             return "done";
         }
@@ -121,11 +136,13 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
     }
 }
 
-/// What the library could not say itself.
-void report_unsaid(const Seen& seen) {
-    if (seen.unsaid > 0) {
-        std::cerr << "glcast-run: " << seen.unsaid << (seen.unsaid == 1 ? " line" : " lines")
-                  << " of the library did not go to the program's stderr: " << seen.unsaid_why << '\n';
+/// The program has gone; what is captured becomes meshes, unless a signal comes.
+void wait_for_meshes(MeshStep& meshes, Program& program, int signals) {
+    for (meshes.advance(program); meshes.busy(); meshes.advance(program)) {
+        pollfd event{signals, POLLIN, 0};
+        poll(&event, 1, -1);
+        if (read_signals(signals) != 0) return meshes.give_up();
+        program.reap();
     }
 }
 
@@ -148,41 +165,31 @@ std::string find_obstacle(const Program& program) {
     return {};
 }
 
-int report(const Options& options, const Seen& seen, const std::string& ending) {
-    if (options.list && seen.listed) {
-        for (const std::string& group : seen.groups) {
-            std::cout << group << '\n';
-        }
-        return 0;
-    }
-    if (seen.captures == 0) {
-        return fail(describe_failure(seen, ending));
-    }
-    const std::string name = fs::path(options.program[0]).filename().string();
-    if (seen.captures == 1) {
-        std::cerr << "glcast-run: frame " << seen.captured_frame << " of " << name << " is cast in "
-                  << seen.captured_file << '\n';
-    } else {
-        std::cerr << "glcast-run: " << seen.captures << " frames of " << name << " are cast, the last in "
-                  << seen.captured_file << '\n';
-    }
-    if (options.captures > seen.captures) {
-        return fail("only " + std::to_string(seen.captures) + " of " + std::to_string(options.captures) +
-                    " captures: " + ending);
-    }
-    return 0;
+int report(const Options& options, const Seen& seen, const MeshStep* meshes, const std::string& ending) {
+    if (options.list && seen.listed) return report_list(options, seen);
+    if (seen.captures.empty()) return fail(describe_failure(seen, ending));
+    return meshes != nullptr ? report_meshes(options, seen, *meshes, ending) : report_captures(options, seen, ending);
 }
 
 int run(const Options& options) {
     occupy_standard_descriptors();
-    const fs::path program_file = find_program(options.program[0]), shim = find_shim();
-    if (const std::string trouble = check_all(options, program_file, shim); !trouble.empty()) {
-        return fail(trouble);
+    const fs::path program_file = find_program(options.program[0]), shim = find_shim(), glcast = find_glcast();
+    const bool makes_mesh = options.makes_mesh && !options.list;
+    if (makes_mesh && glcast.empty()) return fail("cannot find glcast beside glcast-run, which makes the mesh");
+    if (const Trouble trouble = check_program_and_shim(options, program_file, shim); !trouble.why.empty()) {
+        return fail(trouble.why);
     }
     const int signals = take_signals();
     StatusPipe pipe;
     if (!pipe.ok()) {
         return fail("cannot make a pipe in the folder for temporary files");
+    }
+    const std::string capture = makes_mesh ? capture_pattern(options, pipe.scratch()).string() : options.output;
+    std::optional<MeshStep> meshes;
+    if (makes_mesh) meshes.emplace(options, glcast, pipe.scratch());
+    if (const Trouble trouble = check_outputs(options, capture, meshes ? &*meshes : nullptr); !trouble.why.empty()) {
+        fail(trouble.why);
+        return trouble.status;
     }
     Display display;
     if (options.headless) {
@@ -192,21 +199,35 @@ int run(const Options& options) {
     }
     Program program(options.quit || options.headless);
     program.spare(display.pid());
-    const Environment changes = environment(options, pipe, shim, display);
-    if (const std::string trouble = program.start(program_file, options.program, changes); !trouble.empty()) {
+    const Environment changes = environment(options, capture, pipe, shim, display);
+    const int program_output = options.json ? STDERR_FILENO : -1;
+    if (const std::string trouble = program.start(program_file, options.program, changes, program_output);
+        !trouble.empty()) {
         return fail(trouble);
     }
     Seen seen;
     std::optional<int> result;
-    const auto finished = [&] { result = report(options, seen, ""); };
-    std::string ending = wait_for_cast(options, program, pipe, signals, seen, finished);
+    std::string ending = wait_for_cast(options, program, pipe, signals, seen, [&] {
+        if (meshes && !seen.looking) {
+            meshes->take(seen);
+            meshes->advance(program);
+        }
+        if (!meshes && !result && seen.finished(options.captures)) result = report(options, seen, nullptr, "");
+    });
     if (seen.api.empty()) {
         ending += find_obstacle(program);
+        if (!options.headless) ending += missing_display();
     }
+    if (meshes && ending == interrupted) meshes->give_up();
     program.end(end_grace_ms);
     pipe.read_into(seen); // a capture that was finished while the program was being ended counts
     report_unsaid(seen);
-    return result ? *result : report(options, seen, ending);
+    if (meshes) {
+        meshes->take(seen);
+        if (ending == interrupted) meshes->give_up();
+        wait_for_meshes(*meshes, program, signals);
+    }
+    return result ? *result : report(options, seen, meshes ? &*meshes : nullptr, ending);
 }
 
 } // namespace

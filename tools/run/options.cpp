@@ -12,12 +12,16 @@
 #include <optional>
 #include <sstream>
 
+#include "capture/key_names.h"
 #include "capture/view.h"
+#include "tools/io/mesh_endings.h"
+#include "tools/run/mesh_options.h"
+#include "tools/words/text.h"
 
 namespace glcast::run {
 namespace {
 
-constexpr double default_quit_timeout_seconds = 120;
+constexpr double default_quit_timeout_seconds = 120, most_seconds = 1e6;
 
 std::optional<std::vector<double>> numbers(const std::string& text, std::size_t count) {
     std::vector<double> values;
@@ -89,9 +93,29 @@ std::string check_layers(const std::string& text) {
     return good ? "" : "needs auto, slab or a whole number from 1 to 256, not " + text;
 }
 
-std::string check_name(const std::string& text) {
-    const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '+'; };
-    return !text.empty() && std::all_of(text.begin(), text.end(), fits) ? "" : "is not a name";
+std::string check_key(const std::string& text) {
+    return key_symbol(text) != 0 ? "" : "needs a key, like F12, Print or x, not " + text;
+}
+
+std::string check_signal(const std::string& text) {
+    return signal_number(text) != 0 ? "" : "needs a signal that does not end programs, like USR1 or RTMIN+1, not " + text;
+}
+
+std::string in_digits(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+/// CLI::Range lets "nan" through.
+CLI::Validator seconds_from(double least) {
+    const auto check = [least](const std::string& text) {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most_seconds;
+        return good ? std::string()
+                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " + text;
+    };
+    return {check, "FLOAT in [" + in_digits(least) + " - " + in_digits(most_seconds) + "]"};
 }
 
 constexpr const char* list_picture_option = "--list-picture";
@@ -114,8 +138,29 @@ class HelpFormat : public CLI::Formatter {
     }
 };
 
+/// Kept as they are, each as a word of its own: a value must not be taken for PROGRAM.
+void declare_mesh_options(CLI::App& app, Options& o) {
+    for (const MeshOption& option : mesh_options) {
+        const std::string name = option.name, text = "As in glcast mesh, when -o is a mesh";
+        if (option.takes_value)
+            app.add_option_function<std::vector<std::string>>(
+                   name,
+                   [&o, name](const std::vector<std::string>& values) {
+                       for (const std::string& value : values) o.mesh_arguments.push_back(name + "=" + value);
+                   },
+                   text)
+                ->type_name("TEXT")
+                ->expected(1)
+                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+                ->group("Mesh");
+        else
+            app.add_flag_callback(name, [&o, name] { o.mesh_arguments.push_back(name); }, text)->group("Mesh");
+    }
+}
+
 void declare(CLI::App& app, Options& o) {
-    app.add_option("-o,--output", o.output, "Capture to write (default: PROGRAM.exr here)")
+    app.add_option("-o,--output", o.output,
+                   "Capture (.exr), or mesh to make of it (" + listed_mesh_endings() + "); default: PROGRAM.exr here")
         ->envname("GLCAST_OUT");
     app.add_option("-n,--resolution", o.n, "Samples along each axis")
         ->envname("GLCAST_N")
@@ -127,14 +172,14 @@ void declare(CLI::App& app, Options& o) {
                       ->check(CLI::Range(1L, 1'000'000'000L));
     app.add_option("--after", o.after_seconds, "Cast the first frame after so many seconds")
         ->envname("GLCAST_AFTER")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(seconds_from(0))
         ->excludes(frame);
     app.add_option("--key", o.key, "Cast a frame each time this key (F12, Print, x, ...) is pressed")
         ->envname("GLCAST_KEY")
-        ->check(check_name);
+        ->check(check_key);
     app.add_option("--signal", o.signal, "Cast a frame each time this signal (USR1, ...) comes to PROGRAM")
         ->envname("GLCAST_SIGNAL")
-        ->check(check_name);
+        ->check(check_signal);
     app.add_flag("--nudge", o.nudge, "Expose and resize the window by a pixel while no frame comes")
         ->envname("GLCAST_NUDGE");
     app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
@@ -144,9 +189,10 @@ void declare(CLI::App& app, Options& o) {
                    "Cast so many frames (default: 1; with --every, --key and --signal no limit, but 1 with --quit)")
         ->envname("GLCAST_CAPTURES")
         ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option("--normals", o.normals, "signed: one render; six: the paper's six renders")
+    app.add_option("--normals", o.normals,
+                   "signed: one render; six: the paper's six renders; of a mesh also drawn or geometric")
         ->envname("GLCAST_NORMALS")
-        ->check(CLI::IsMember({"signed", "six"}))
+        ->check(CLI::IsMember({"signed", "six", "drawn", "geometric"}))
         ->capture_default_str();
     app.add_option(
            "--layers", o.layers,
@@ -176,40 +222,54 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_INCLUDE")
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
     app.add_option("--transparent", o.transparent,
-                   "What is blended: keep or skip all of it (default: keep what is at least half opaque)")
+                   "What is blended: keep or skip all of it (default: keep it where half or less of what is behind shows)")
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
+    app.add_option("--fov", o.view_angle,
+                   "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
+        ->envname("GLCAST_FOV")
+        ->check(CLI::Range(0.001, 179.999));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,
                    "Give up and end the program after so many seconds (default: " +
                        std::to_string(static_cast<int>(default_quit_timeout_seconds)) +
                        " with --quit or --headless, else never)")
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(seconds_from(0.001));
     app.add_option("--max-seconds", o.most_seconds,
                    "Give up a cast that takes longer, and let the program run on (default: never)")
         ->envname("GLCAST_MAX_SECONDS")
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(seconds_from(0.001));
+    app.add_flag("--keep-capture", o.keep_capture, "Of a mesh: keep the capture too, beside it, as .exr");
+    app.add_flag("--verbose", o.verbose, "Say also how, with figures");
+    app.add_flag("--json", o.json,
+                 "Print one JSON object on standard output; what PROGRAM prints there goes to standard error");
     app.set_version_flag("--version", "glcast-run " GLCAST_VERSION);
-    app.footer("Exit status: 0 captured, 1 not captured (one line says why), 2 wrong usage.");
+    declare_mesh_options(app, o);
+    app.footer("Exit status: 0 cast, 1 not cast (one line says why), 2 wrong usage.");
     app.formatter(std::make_shared<HelpFormat>());
     app.prefix_command();
 }
 
-/// As the kernel reads it: `folder/..` is not taken away, for `folder` may be a link, or not be there.
-std::string absolute(const std::string& file) {
-    std::filesystem::path whole;
-    for (const auto& part : std::filesystem::absolute(file)) {
-        if (part != ".") {
-            whole /= part;
-        }
-    }
-    return whole;
+Parsed usage(const std::string& what) {
+    std::cerr << printable("glcast-run: " + what + " (see glcast-run --help)") << '\n';
+    return Parsed::usage_error;
 }
 
-Parsed usage(const std::string& what) {
-    std::cerr << "glcast-run: " << what << " (see glcast-run --help)\n";
-    return Parsed::usage_error;
+/// What the mesh options mean beside the others; empty, or what is wrong.
+std::string settle_mesh(Options& o) {
+    const std::filesystem::path output(o.output);
+    o.makes_mesh = has_mesh_ending(output);
+    if (!o.makes_mesh && output.extension() != ".exr")
+        return "cannot write " + o.output + ": name it .exr for the capture, or " + listed_mesh_endings() +
+               " for a mesh made of it";
+    if (o.normals == "drawn" || o.normals == "geometric") {
+        o.mesh_arguments.push_back("--normals=" + o.normals);
+        o.normals = Options().normals;
+    }
+    if (o.makes_mesh || o.mesh_arguments.empty()) return {};
+    const std::string& first = o.mesh_arguments[0];
+    return first.substr(0, first.find('=')) + " is of a mesh: name the output " + listed_mesh_endings();
 }
 
 } // namespace
@@ -217,7 +277,7 @@ Parsed usage(const std::string& what) {
 Parsed parse_options(int argc, const char* const* argv, Options& options) {
     const auto dashes = std::find(argv + std::min(argc, 1), argv + argc, std::string_view("--"));
     CLI::App app(
-        "Run PROGRAM unchanged and cast one frame of what it draws with OpenGL into a capture (.exr).",
+        "Run PROGRAM unchanged and cast one frame of what it draws with OpenGL: a capture (.exr), or a mesh made of it.",
         "glcast-run");
     declare(app, options);
     try {
@@ -251,7 +311,7 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
     }
     if (!options.list_picture.empty()) {
         options.list = true;
-        options.list_picture = absolute(options.list_picture);
+        options.list_picture = std::filesystem::absolute(options.list_picture);
     }
     options.quit |= options.list;
     if (options.captures < 0) {
@@ -269,19 +329,18 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         options.output = std::filesystem::path(options.program[0]).filename().string() +
                          (options.captures == 1 ? ".exr" : ".%f.exr");
     }
-    options.output = absolute(options.output);
+    if (const std::string trouble = settle_mesh(options); !trouble.empty()) {
+        return usage(trouble);
+    }
+    options.output = std::filesystem::absolute(options.output);
     return Parsed::run;
 }
 
 std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o,
+                                                                const std::string& capture,
                                                                 const std::filesystem::path& status_pipe) {
-    const auto number = [](double value) {
-        std::ostringstream text;
-        text << value;
-        return text.str();
-    };
     return {
-        {"GLCAST_OUT", o.output},
+        {"GLCAST_OUT", capture},
         {"GLCAST_N", std::to_string(o.n)},
         {"GLCAST_FRAME", o.frame > 0 ? std::to_string(o.frame) : ""},
         {"GLCAST_KEY", o.key},
@@ -289,7 +348,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_NUDGE", o.nudge ? "1" : ""},
         {"GLCAST_EVERY", o.every > 0 ? std::to_string(o.every) : ""},
         {"GLCAST_CAPTURES", std::to_string(o.captures)},
-        {"GLCAST_AFTER", o.after_seconds > 0 ? number(o.after_seconds) : ""},
+        {"GLCAST_AFTER", o.after_seconds > 0 ? in_digits(o.after_seconds) : ""},
         {"GLCAST_NORMALS", o.normals},
         {"GLCAST_LAYERS", o.layers},
         {"GLCAST_BOX", o.box},
@@ -299,8 +358,10 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
+        {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
-        {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? number(o.most_seconds) : ""},
+        {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
+        {"GLCAST_VERBOSE", o.verbose ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},
     };
 }

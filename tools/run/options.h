@@ -10,6 +10,9 @@ namespace glcast::run {
 
 struct Options {
     std::string output; ///< absolute; empty with `list`; %p and %f are the shim's to fill in
+    bool makes_mesh = false;                 ///< by its ending: `output` is a mesh, made of the capture
+    std::vector<std::string> mesh_arguments; ///< for glcast mesh, as they were given
+    bool keep_capture = false;               ///< beside the mesh
     int n = 512;
     long frame = 0;           ///< 0: the first with solid geometry
     double after_seconds = 0; ///< 0: at once
@@ -28,8 +31,10 @@ struct Options {
     bool list = false;
     std::string list_picture; ///< absolute; implies `list`
     std::string include, transparent;
+    double view_angle = 0; ///< degrees; 0: not told
     double timeout_seconds = 0;       ///< 0: no limit
     double most_seconds = 0;          ///< of one cast; 0: no limit
+    bool verbose = false, json = false;
     std::vector<std::string> program; ///< name and arguments
 };
 
@@ -40,8 +45,8 @@ enum class Parsed { run, done, usage_error };
 /// looked at here.
 Parsed parse_options(int argc, const char* const* argv, Options& options);
 
-/// The GLCAST_ variables for the shim. An empty value means: unset it.
-std::vector<std::pair<std::string, std::string>> shim_variables(const Options& options,
+/// The GLCAST_ variables for the shim, which writes `capture`. An empty value means: unset it.
+std::vector<std::pair<std::string, std::string>> shim_variables(const Options& options, const std::string& capture,
                                                                 const std::filesystem::path& status_pipe);
 
 } // namespace glcast::run

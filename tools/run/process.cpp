@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/syscall.h>
@@ -52,13 +53,22 @@ pid_t parent_of(const std::filesystem::path& process_folder) {
     return name_end == std::string::npos ? -1 : static_cast<pid_t>(std::atoi(text.c_str() + name_end + 4));
 }
 
+std::vector<char*> c_strings(const std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (const std::string& word : words) {
+        pointers.push_back(const_cast<char*>(word.c_str()));
+    }
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 /// Children of ours other than `spared`: what the program started and orphaned, in whatever session.
-std::vector<pid_t> adopted(pid_t spared) {
+std::vector<pid_t> adopted(const std::map<pid_t, std::optional<int>>& spared) {
     std::vector<pid_t> found;
     std::error_code gone;
     for (const auto& entry : std::filesystem::directory_iterator("/proc", gone)) {
         const pid_t pid = std::atoi(entry.path().filename().c_str());
-        if (pid > 0 && pid != spared && parent_of(entry.path()) == getpid()) {
+        if (pid > 0 && spared.count(pid) == 0 && parent_of(entry.path()) == getpid()) {
             found.push_back(pid);
         }
     }
@@ -93,8 +103,62 @@ void end_process(pid_t pid, int grace_ms) {
     waitpid(pid, nullptr, 0);
 }
 
+Answer ask(const std::vector<std::string>& command) {
+    const int errors = memfd_create("errors", MFD_CLOEXEC);
+    const pid_t pid = fork();
+    if (pid == 0) {
+        unblock_signals();
+        const int silence = open("/dev/null", O_RDWR);
+        dup2(silence, 0);
+        dup2(silence, 1);
+        dup2(errors >= 0 ? errors : silence, 2);
+        execv(command[0].c_str(), c_strings(command).data());
+        _exit(127);
+    }
+    Answer answer;
+    int status = 0;
+    if (pid > 0 && waitpid(pid, &status, 0) == pid) {
+        answer.status = exit_status(status);
+    }
+    if (errors >= 0) {
+        answer.errors = take_text(errors);
+    }
+    return answer;
+}
+
+std::string take_text(int file) {
+    std::string text;
+    char buffer[4096];
+    lseek(file, 0, SEEK_SET);
+    for (ssize_t got; (got = read(file, buffer, sizeof buffer)) > 0;) {
+        text.append(buffer, static_cast<std::size_t>(got));
+    }
+    close(file);
+    return text;
+}
+
+pid_t start_command(const std::vector<std::string>& command, int output) {
+    const pid_t pid = fork();
+    if (pid == 0) {
+        setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        unblock_signals();
+        dup2(open("/dev/null", O_RDONLY), 0);
+        if (output >= 0) {
+            dup2(output, 1);
+        }
+        execv(command[0].c_str(), c_strings(command).data());
+        _exit(127);
+    }
+    return pid;
+}
+
+int exit_status(int wait_status) {
+    return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
+}
+
 std::string Program::start(const std::string& file, const std::vector<std::string>& arguments,
-                           const Environment& changes) {
+                           const Environment& changes, int output) {
     int trouble[2];
     if (pipe2(trouble, O_CLOEXEC) != 0) {
         return "cannot make a pipe";
@@ -106,12 +170,10 @@ std::string Program::start(const std::string& file, const std::vector<std::strin
         for (const auto& [name, value] : changes) {
             value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
         }
-        std::vector<char*> argv;
-        for (const std::string& argument : arguments) {
-            argv.push_back(const_cast<char*>(argument.c_str()));
+        if (output >= 0) {
+            dup2(output, 1);
         }
-        argv.push_back(nullptr);
-        execv(file.c_str(), argv.data());
+        execv(file.c_str(), c_strings(arguments).data());
         const int error = errno;
         [[maybe_unused]] const auto told = write(trouble[1], &error, sizeof error);
         _exit(127);
@@ -128,8 +190,20 @@ void Program::reap() {
     for (pid_t ended; (ended = waitpid(-1, &ended_status, WNOHANG)) > 0;) {
         if (ended == leader) {
             status = ended_status;
+        } else if (const auto ours = spared.find(ended); ours != spared.end()) {
+            ours->second = ended_status;
         }
     }
+}
+
+std::optional<int> Program::take_ended(pid_t pid) {
+    const auto ours = spared.find(pid);
+    if (ours == spared.end() || !ours->second) {
+        return std::nullopt;
+    }
+    const int ended = *ours->second;
+    spared.erase(ours);
+    return ended;
 }
 
 std::vector<std::filesystem::path> Program::running() const {

@@ -9,12 +9,16 @@
 #include <functional>
 #include <map>
 #include <string_view>
+#include <utility>
 
 namespace glcast::run {
 
 void take_line(const std::string& line, Seen& seen) {
     using Take = std::function<void(const std::string&, Seen&)>;
     const auto number = [](const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); };
+    const auto capture = [=](const std::string& text, Seen& s) {
+        return Capture{number(text), text.substr(std::min(text.find(' ') + 1, text.size())), std::exchange(s.figures, {})};
+    };
     static const std::map<std::string, Take> kinds = {
         {"hooked", [](const std::string& rest, Seen& s) { s.api = rest; }},
         {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
@@ -22,16 +26,12 @@ void take_line(const std::string& line, Seen& seen) {
         {"seen", [](const std::string& rest, Seen& s) { s.seen = rest; }},
         {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
         {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
-        {"captured",
-         [=](const std::string& rest, Seen& s) {
-             ++s.captures;
-             s.captured_frame = number(rest);
-             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
-         }},
+        {"figures", [](const std::string& rest, Seen& s) { s.figures = rest; }},
+        {"captured", [=](const std::string& rest, Seen& s) { s.captures.push_back(capture(rest, s)); }},
         {"recaptured",
          [=](const std::string& rest, Seen& s) {
-             s.captured_frame = number(rest);
-             s.captured_file = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+             if (!s.captures.empty()) s.captures.pop_back();
+             s.captures.push_back(capture(rest, s));
          }},
         {"looks", [](const std::string&, Seen& s) { s.looking = true; }},
         {"settled", [](const std::string&, Seen& s) { s.looking = false; }},

@@ -6,6 +6,12 @@
 
 namespace glcast::run {
 
+struct Capture {
+    long frame = 0;
+    std::string file;
+    std::string figures = {}; ///< how it was made, for --verbose and --json
+};
+
 /// What is known of the program's drawing so far.
 struct Seen {
     std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
@@ -14,9 +20,8 @@ struct Seen {
     std::string seen;    ///< instead of a solid, with what to do
     std::string refused; ///< why a frame could not be recorded, the last one
     long casting = 0;    ///< the frame being cast
-    long captures = 0;
-    long captured_frame = 0;   ///< the last
-    std::string captured_file; ///< its name
+    std::string figures;           ///< of the capture that comes next
+    std::vector<Capture> captures; ///< complete, in the order in which they came
     std::string failed;
     std::string slow;       ///< why the cast will take long
     std::string progress;   ///< of a long cast, how far it is; empty: none is under way
@@ -29,7 +34,7 @@ struct Seen {
     /// All is there that was asked for, or nothing more will come. `wanted` captures, 0: no limit.
     bool finished(long wanted) const {
         if (looking) return false;
-        return listed || (wanted > 0 && captures >= wanted) || (wanted == 1 && !failed.empty());
+        return listed || (wanted > 0 && static_cast<long>(captures.size()) >= wanted) || (wanted == 1 && !failed.empty());
     }
 };
 

@@ -91,8 +91,9 @@ void LevelFit::look_at(const Sample& sample, std::uint32_t triangle, Place& best
 /// Points spread over the level, and its vertices, where a spike would end.
 void LevelFit::spread_over_level() {
     const SurfaceArea area(mesh);
-    const double alike = area.total() / (spacing * spacing) / double(samples.size());
-    const std::vector<AreaPoint> by_area = area_points(area, samples.size());
+    const std::size_t count = samples.size() / 2; // as many as that make hardly a difference to all
+    const double alike = area.total() / (spacing * spacing) / double(count);
+    const std::vector<AreaPoint> by_area = area_points(area, count);
     points.resize(by_area.size() + mesh.positions.size());
     for (std::size_t i = 0; i < by_area.size(); ++i)
         points[i] = {

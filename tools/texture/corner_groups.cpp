@@ -14,11 +14,13 @@ namespace {
 struct Group {
     glm::dvec3 normal{0}, colour{0}; ///< sums, by weight
     double weight = 0;
+    double spread = 0;        ///< degrees: of the normals over one triangle, by root mean square, where it is largest
     std::uint32_t number = 0; ///< of its first corner around the vertex
 
     void add(const Group& other) {
         normal += other.normal, colour += other.colour;
         weight += other.weight;
+        spread = std::max(spread, other.spread);
     }
 };
 
@@ -26,10 +28,17 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
+/// Where normals turn over the triangles, a coarse level may just not follow; where each has one alone, they are flat
+/// sides, however little apart.
+double degrees_allowed(const Group& a, const Group& b, const JoinLimits& limits) {
+    constexpr double least = 5, spreads = 4; // least: what captured normals are off, and more
+    return std::min(limits.degrees, std::max(least, spreads * std::max(a.spread, b.spread)));
+}
+
 /// 1: just within the limits.
 double disagreement(const Group& a, const Group& b, const JoinLimits& limits) {
     const glm::dvec3 off = glm::abs(a.colour / a.weight - b.colour / b.weight);
-    return std::max(degrees_between(a.normal, b.normal) / limits.degrees,
+    return std::max(degrees_between(a.normal, b.normal) / degrees_allowed(a, b, limits),
                     std::max({off.x, off.y, off.z}) / limits.colour);
 }
 
@@ -76,7 +85,7 @@ class Around {
         std::uint32_t best = 0; // the first corner, where nothing is shown anywhere around
         double most = -2;
         for (const Group& group : groups)
-            if (const double d = glm::dot(glm::normalize(group.normal), glm::dvec3(normal)); d > most)
+            if (const double d = glm::dot(group.normal, glm::dvec3(normal)) / glm::length(group.normal); d > most)
                 most = d, best = group.number;
         return best;
     }
@@ -101,7 +110,9 @@ std::array<Group, 3> shown_at(const FaceSums& face) {
     std::array<Group, 3> shown;
     if (face.found == 0) return shown;
     const auto normals = corner_values(face, face.normal), colours = corner_values(face, face.colour);
-    for (int k = 0; k < 3; ++k) shown[k] = {normals[k] * face.found, colours[k] * face.found, face.found, 0};
+    const glm::dvec3 mean = (face.normal[0] + face.normal[1] + face.normal[2]) / face.found;
+    const double spread = std::sqrt(std::max(0.0, 1 - glm::dot(mean, mean))) * 180 / std::numbers::pi;
+    for (int k = 0; k < 3; ++k) shown[k] = {normals[k] * face.found, colours[k] * face.found, face.found, spread, 0};
     return shown;
 }
 

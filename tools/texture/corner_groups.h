@@ -7,7 +7,7 @@ namespace glcast {
 
 /// Corners of one vertex are joined while what is shown there, over their triangles, agrees to this.
 struct JoinLimits {
-    double degrees; ///< between normals
+    double degrees; ///< between normals; less where they hardly turn over the triangles: flat sides
     double colour;  ///< of a channel
 };
 

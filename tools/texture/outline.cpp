@@ -225,13 +225,13 @@ double mean_height(std::span<const Residual> residuals) {
 
 } // namespace
 
-void fit_outlines(Mesh& mesh, const CapturedSurface& captured) {
-    if (captured.empty() || mesh.triangles.size() > most_triangles) return;
+bool fit_outlines(Mesh& mesh, const CapturedSurface& captured) {
+    if (captured.empty() || mesh.triangles.size() > most_triangles) return false;
     const Neighbours neighbours = find_neighbours(mesh);
     for (int round = 0; round < rounds; ++round) {
         const std::vector<glm::vec3> normals = triangle_normals(mesh);
         const std::vector<Residual> residuals = Residuals(mesh, captured, neighbours, normals).all();
-        if (round == 0 && mean_height(residuals) < near_enough) return;
+        if (round == 0 && mean_height(residuals) < near_enough) return false;
         const std::size_t vertices = mesh.positions.size();
         Undoing undoing(mesh, normals);
         move(mesh,
@@ -239,6 +239,7 @@ void fit_outlines(Mesh& mesh, const CapturedSurface& captured) {
              captured.sample());
         undoing.run();
     }
+    return true;
 }
 
 } // namespace glcast

@@ -11,7 +11,7 @@ namespace glcast {
 /// there is the share of directions for which it does; so it needs no pictures. Moves of a few samples at
 /// most; no triangle turns by more than 60 degrees, and none crosses another that it did not cross before.
 /// Triangles, colours and normals stay. A level of more than 30,000 triangles is left as it is. The same
-/// input gives the same positions, bit for bit, on any number of threads.
-void fit_outlines(Mesh& mesh, const CapturedSurface& captured);
+/// input gives the same positions, bit for bit, on any number of threads. False where nothing moved.
+bool fit_outlines(Mesh& mesh, const CapturedSurface& captured);
 
 } // namespace glcast

@@ -101,57 +101,65 @@ void make_shading_normals(Mesh& mesh, const Neighbours& neighbours, const std::v
 
 namespace {
 
-/// The triangles of wedges in the mesh.
-struct WedgePlaces {
-    std::vector<std::uint32_t> vertex;
-    std::vector<glm::vec3> normal; ///< mean of its triangles, by angle, not unit
-
-    WedgePlaces(const Mesh& mesh, const Wedges& wedges, const std::vector<glm::vec3>& normals)
-        : vertex(wedges.normals.size()), normal(wedges.normals.size(), glm::vec3(0)) {
-        for (std::uint32_t t = 0; t < wedges.corners.size(); ++t)
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                normal[wedges.corners[t][k]] += normals[t] * angle_at(mesh, 3 * t + k);
-                vertex[wedges.corners[t][k]] = mesh.triangles[t][k];
-            }
+/// The mean normals of wedges' triangles, by area; 0 where they have none.
+std::vector<glm::vec3> mean_normals(const Mesh& mesh, const Wedges& wedges) {
+    std::vector<glm::dvec3> sums(wedges.normals.size(), glm::dvec3(0));
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t) {
+        const Triangle& v = mesh.triangles[t];
+        const glm::dvec3 &p = mesh.positions[v[0]], area = glm::cross(mesh.positions[v[1]] - p, mesh.positions[v[2]] - p);
+        for (const std::uint32_t w : wedges.corners[t]) sums[w] += area;
     }
-};
+    std::vector<glm::vec3> means(sums.size(), glm::vec3(0));
+    for (std::size_t w = 0; w < sums.size(); ++w)
+        if (const double length = glm::length(sums[w]); length > 0) means[w] = glm::vec3(sums[w] / length);
+    return means;
+}
 
-/// Which of them point inward.
-std::vector<std::uint8_t> bound(const WedgePlaces& places, const Neighbours& neighbours, Wedges& wedges,
-                                const std::vector<glm::vec3>& normals, double degrees) {
-    constexpr int rounds = 4; // triangles of a wedge may want different turns
-    const float radians = float(degrees * std::numbers::pi / 180);
+/// A wedge for this corner alone.
+void split_off(Wedges& wedges, std::vector<std::uint8_t>& way, std::uint32_t& corner, const glm::vec3& normal) {
+    const std::uint32_t from = corner;
+    corner = std::uint32_t(wedges.normals.size());
+    wedges.normals.push_back(normal);
+    if (!wedges.colours.empty()) wedges.colours.push_back(glm::vec3(wedges.colours[from]));
+    way.push_back(std::uint8_t(way[from]));
+}
+
+/// Which of the wedges point inward.
+std::vector<std::uint8_t> bound(const Mesh& mesh, Wedges& wedges, const std::vector<glm::vec3>& normals,
+                                double degrees) {
+    const float radians = float(degrees * std::numbers::pi / 180), rounding = 1e-3f;
     std::vector<std::uint8_t> way(wedges.normals.size());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(way.size()), 1024), [&](const auto& range) {
-        for (std::uint32_t w = range.begin(); w < range.end(); ++w) {
-            glm::vec3& normal = wedges.normals[w];
-            const float along = glm::dot(normal, places.normal[w]);
-            way[w] = along < -std::cos(radians) * glm::length(places.normal[w]) ? inward : outward;
-            for (int round = 0; round < rounds; ++round)
-                for (const std::uint32_t corner : neighbours.around(places.vertex[w])) {
-                    const glm::vec3& axis = normals[corner / 3];
-                    if (wedges.corners[corner / 3][corner % 3] != w || axis == glm::vec3(0)) continue;
-                    normal = turned_towards(normal, way[w] == inward ? -axis : axis, radians);
-                }
+    const std::vector<glm::vec3> means = mean_normals(mesh, wedges);
+    for (std::size_t w = 0; w < way.size(); ++w) {
+        glm::vec3& normal = wedges.normals[w];
+        way[w] = glm::dot(normal, means[w]) < -std::cos(radians) ? inward : outward;
+        if (means[w] != glm::vec3(0))
+            normal = turned_towards(normal, way[w] == inward ? -means[w] : means[w], radians);
+    }
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t)
+        for (std::uint32_t& w : wedges.corners[t]) {
+            const glm::vec3 axis = way[w] == inward ? -normals[t] : normals[t];
+            if (axis == glm::vec3(0) || glm::dot(wedges.normals[w], axis) >= std::cos(radians + rounding)) continue;
+            split_off(wedges, way, w, turned_towards(wedges.normals[w], axis, radians));
         }
-    });
     return way;
 }
 
 } // namespace
 
-void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
-                   const std::vector<glm::vec3>& normals, double degrees) {
-    bound(WedgePlaces(mesh, wedges, normals), neighbours, wedges, normals, degrees);
+void bound_normals(const Mesh& mesh, Wedges& wedges, const std::vector<glm::vec3>& normals, double degrees) {
+    bound(mesh, wedges, normals, degrees);
 }
 
 void make_shading_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
                           const std::vector<glm::vec3>& normals) {
     constexpr double degrees = 60;
-    const WedgePlaces places(mesh, wedges, normals);
-    std::vector<std::uint8_t> way = bound(places, neighbours, wedges, normals, degrees);
+    std::vector<std::uint8_t> way = bound(mesh, wedges, normals, degrees);
+    std::vector<std::uint32_t> vertex_of(wedges.normals.size());
+    for (std::size_t t = 0; t < wedges.corners.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) vertex_of[wedges.corners[t][k]] = mesh.triangles[t][k];
     turn_inward_parts(wedges.normals, way, [&](std::uint32_t wedge, const auto& visit) {
-        for (const std::uint32_t corner : neighbours.around(places.vertex[wedge]))
+        for (const std::uint32_t corner : neighbours.around(vertex_of[wedge]))
             for (const std::uint32_t w : wedges.corners[corner / 3]) visit(w);
     });
 }

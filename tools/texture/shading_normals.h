@@ -14,10 +14,10 @@ namespace glcast {
 void make_shading_normals(Mesh& mesh, const Neighbours& neighbours,
                           const std::vector<glm::vec3>& triangle_normals);
 
-/// Turns normals of wedges that are further than `degrees` from a triangle of theirs towards it, until they are not. What
-/// points inward, further from it than 180 - `degrees`, stays inward and is bounded likewise.
-void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
-                   const std::vector<glm::vec3>& triangle_normals, double degrees);
+/// No normal of a wedge is further than `degrees` from the mean of its triangles, by area, or turned towards it until it
+/// is not. Corners whose own triangle is still further from it, as slivers are that lie across, become wedges of their
+/// own. What points inward, further from the mean than 180 - `degrees`, stays inward and is bounded likewise.
+void bound_normals(const Mesh& mesh, Wedges& wedges, const std::vector<glm::vec3>& triangle_normals, double degrees);
 
 /// The same for wedges that a normal map is made for; and what then points inward, joined to what does not, is turned
 /// about.

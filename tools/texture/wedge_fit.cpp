@@ -112,24 +112,26 @@ std::vector<glm::vec3> in_range(const Vectors& fitted) {
 }
 
 /// The vertices get the values of their largest wedges; true where one has several.
-bool take_largest(Mesh& mesh, const Wedges& wedges, const Equations& equations) {
-    std::vector<double> largest(mesh.positions.size(), -1);
-    std::vector<std::uint32_t> which(mesh.positions.size(), UINT32_MAX);
+bool take_largest(Mesh& mesh, const Wedges& wedges, const std::vector<FaceSums>& faces) {
+    constexpr std::uint32_t none = UINT32_MAX;
+    std::vector<double> area(wedges.normals.size());
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (const std::uint32_t w : wedges.corners[t]) area[w] += faces[t].area;
+    std::vector<std::uint32_t> largest(mesh.positions.size(), none);
     bool several = false;
-    for (std::size_t t = 0; t < wedges.corners.size(); ++t)
+    for (std::size_t t = 0; t < faces.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = mesh.triangles[t][k], w = wedges.corners[t][k];
-            several = several || (which[v] != UINT32_MAX && which[v] != w);
-            double area = 0;
-            for (const std::uint32_t corner : equations.of(w)) area += equations.area(corner / 3);
-            if (area > largest[v] || which[v] == w) largest[v] = area, which[v] = w;
+            std::uint32_t& best = largest[mesh.triangles[t][k]];
+            const std::uint32_t w = wedges.corners[t][k];
+            several = several || (best != none && best != w);
+            if (best == none || area[w] > area[best]) best = w;
         }
     mesh.normals.resize(mesh.positions.size(), glm::vec3(0, 0, 1));
     mesh.colours.resize(mesh.positions.size(), glm::vec3(0));
-    for (std::size_t v = 0; v < which.size(); ++v) {
-        if (which[v] == UINT32_MAX) continue;
-        mesh.normals[v] = wedges.normals[which[v]];
-        mesh.colours[v] = wedges.colours[which[v]];
+    for (std::size_t v = 0; v < largest.size(); ++v) {
+        if (largest[v] == none) continue;
+        mesh.normals[v] = wedges.normals[largest[v]];
+        mesh.colours[v] = wedges.colours[largest[v]];
     }
     return several;
 }
@@ -151,8 +153,8 @@ void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOption
     wedges.normals = units(equations.solved([](const FaceSums& f) { return f.normal; }, own_normals), own_normals);
     wedges.colours = in_range(equations.solved([](const FaceSums& f) { return f.colour; },
                                                own_values(mesh.colours, mesh, wedges.corners, count)));
-    bound_normals(mesh, neighbours, wedges, normals, options.farthest_degrees);
-    if (take_largest(mesh, wedges, equations)) level.wedges = std::move(wedges);
+    bound_normals(mesh, wedges, normals, options.farthest_degrees);
+    if (take_largest(mesh, wedges, faces)) level.wedges = std::move(wedges);
 }
 
 } // namespace glcast

@@ -8,9 +8,9 @@
 namespace glcast {
 
 struct WedgeOptions {
-    /// Corners of a vertex are one wedge while what was captured over their triangles agrees to this: 20 to 35 degrees
-    /// are sensible, 180 joins all.
-    double degrees = 25;
+    /// Corners of a vertex are one wedge while what was captured over their triangles agrees to this at the vertex;
+    /// flat sides, over each of which the normal is one and the same, to 5 degrees.
+    double degrees = 20;
     double colour = 0.15; ///< of a channel, 0..1
     static constexpr double any_colour = 2;
     /// No normal of a corner is further from its triangle's than this: renderers would shade it black, as their light

@@ -85,14 +85,16 @@ std::string nearest(std::string_view word, std::span<const std::string> names) {
 
 std::string enumeration(std::span<const std::string> names, const char* last) {
     std::string text;
-    for (std::size_t k = 0; k < names.size(); ++k)
-        text += (k == 0 ? "" : k + 1 == names.size() ? last : ", ") + names[k];
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (k > 0) text += k + 1 == names.size() ? last : ", ";
+        text += names[k];
+    }
     return text;
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
     std::string digits = std::to_string(count);
-    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
     return digits + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
 }
 

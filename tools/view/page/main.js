@@ -1,4 +1,5 @@
 // The page of `glcast view`: reads its own data, shows it, and follows mouse, touch and keys.
+import { glbOf, save } from './glb.js';
 import { readLevel, readPicture, readScene } from './levels.js';
 import { fillTable, markLevel, press, showLegend, showTexture } from './panel.js';
 import { Stage } from './scene.js';
@@ -50,6 +51,8 @@ class Page {
     for (const mode of ['colour', 'normal', 'error']) byId(`show-${mode}`).addEventListener('click', () => this.setMode(mode));
     byId('texture').addEventListener('click', () => this.toggleTexture());
     byId('wireframe').addEventListener('click', () => this.toggleWireframe());
+    byId('save-glb').addEventListener('click', () => this.saveLevel());
+    byId('save-picture').addEventListener('click', () => this.savePicture());
     byId('own-scale').addEventListener('change', () => this.updateErrors());
     document.addEventListener('keydown', (event) => this.keyed(event));
     return this.showLevel(this.current);
@@ -67,6 +70,7 @@ class Page {
     if (this.current !== index) return;
     this.stage.show(meshes);
     byId('canvas').dataset.level = String(index);
+    for (const button of ['save-glb', 'save-picture']) byId(button).disabled = false;
     showTexture(level, this.stage.textured);
     this.updateErrors();
   }
@@ -74,7 +78,23 @@ class Page {
   async load(level, index) {
     const { colour = -1, normal = -1 } = level.texture ?? {};
     const [arrays, ...images] = await Promise.all([readLevel(level, index), readPicture(colour), readPicture(normal)]);
-    return this.stage.meshes(level, arrays, images);
+    return { ...this.stage.meshes(level, arrays, images), arrays, images };
+  }
+
+  /** "gears_LOD1": of the file that is shown. */
+  get name() {
+    return `${this.scene.title.replace(/\.[^.]*$/, '').replace(/[\\/:*?"<>|]/g, '_')}_LOD${this.current}`;
+  }
+
+  async saveLevel() {
+    const { name, current } = this;
+    const { arrays, images } = await this.loaded.get(current);
+    save(glbOf(this.scene, arrays, images, name), `${name}.glb`);
+  }
+
+  async savePicture() {
+    const { name } = this;
+    save(await this.stage.picture(), `${name}.png`);
   }
 
   setMode(mode) {

@@ -34,6 +34,16 @@ function cell(row, kind, text) {
 function addHead(table, names) {
   const row = table.createTHead().insertRow();
   for (const name of names) cell(row, 'th', name);
+  for (const head of row.cells) head.scope = 'col';
+}
+
+/** For the keyboard: the whole row can be clicked, but not reached by Tab. */
+function addPick(row, index) {
+  const button = document.createElement('button');
+  button.className = 'pick';
+  button.textContent = String(index);
+  button.setAttribute('aria-label', `Show level ${index}`);
+  row.cells[0].replaceChildren(button);
 }
 
 const short = (value) => (value === 0 ? '0' : value < 1e-4 ? value.toExponential(0) : value.toPrecision(2));
@@ -63,7 +73,9 @@ export function fillTable(scene, choose) {
     const errors = columns.map(({ value }) => (index === 0 ? '–' : value(level)));
     row.title = level.included ? level.name : `${level.name}: not in this page`;
     for (const text of [String(index), counted.format(level.triangles), bytes(level.bytes), ...errors]) cell(row, 'td', text);
-    if (level.included) row.addEventListener('click', () => choose(index));
+    if (!level.included) return;
+    addPick(row, index);
+    row.addEventListener('click', () => choose(index));
   });
   byId('note').textContent = noteOn(scene);
 }

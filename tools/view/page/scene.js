@@ -106,6 +106,12 @@ export class Stage {
     this.draw();
   }
 
+  /** What is on the canvas, as a PNG. Drawn anew: between frames a canvas may be empty. @returns {Promise<Blob>} */
+  picture() {
+    this.#drawNow();
+    return new Promise((done) => this.#canvas.toBlob(done, 'image/png'));
+  }
+
   draw() {
     if (this.#waiting) return;
     this.#waiting = true;

@@ -1,6 +1,6 @@
-#include "shim/preload/output_name.h"
+#include "capture/output_name.h"
 
-namespace glcast::preload {
+namespace glcast {
 
 std::string output_name(const std::string& pattern, long process, long frame) {
     std::string name;
@@ -27,4 +27,4 @@ std::string output_name(const std::string& pattern, long process, long frame) {
 
 bool is_pattern(const std::string& name) { return output_name(name, 1, 1) != name; }
 
-} // namespace glcast::preload
+} // namespace glcast

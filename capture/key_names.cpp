@@ -1,4 +1,4 @@
-#include "shim/preload/key_names.h"
+#include "capture/key_names.h"
 
 #include <signal.h>
 
@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstring>
 
-namespace glcast::preload {
+namespace glcast {
 namespace {
 
 // From X11/keysymdef.h; letters, digits and F keys are reckoned.
@@ -63,4 +63,4 @@ int signal_number(const std::string& name) {
     return 0;
 }
 
-} // namespace glcast::preload
+} // namespace glcast

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-namespace glcast::preload {
+namespace glcast {
 
 /// "%p" becomes the process id, "%f" the frame's number, "%%" a per cent sign; anything else stays.
 std::string output_name(const std::string& pattern, long process, long frame);
@@ -10,4 +10,4 @@ std::string output_name(const std::string& pattern, long process, long frame);
 /// Would output_name change it?
 bool is_pattern(const std::string& name);
 
-} // namespace glcast::preload
+} // namespace glcast

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace glcast::preload {
+namespace glcast {
 
 /// X keysym of "F12", "a", "7", "Print", ...; 0 when there is no such key.
 std::uint32_t key_symbol(const std::string& name);
@@ -12,4 +12,4 @@ std::uint32_t key_symbol(const std::string& name);
 /// of the program.
 int signal_number(const std::string& name);
 
-} // namespace glcast::preload
+} // namespace glcast

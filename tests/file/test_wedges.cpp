@@ -1,0 +1,182 @@
+// Normals and colours of corners in files: what is written comes back, as the two-manifold that it was.
+#include <gtest/gtest.h>
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <memory>
+#include <set>
+
+#include "tests/file/file_tools.h"
+#include "tests/file/textured_torus.h"
+#include "tools/io/mesh_io.h"
+#include "tools/mesh/check.h"
+
+using namespace glcast;
+using namespace glcast::samples;
+
+namespace {
+
+/// Each side with its own normal and colour: 8 vertices, 24 wedges.
+Level cube(const char* name = "level 0") {
+    Level level{{}, name, {}, 0.1};
+    for (int v = 0; v < 8; ++v) level.mesh.positions.emplace_back(v & 1, v >> 1 & 1, v >> 2);
+    CornerValues normals, colours;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, from = side ? 1u << axis : 0;
+            const std::uint32_t b = side ? from + u : from + v, d = side ? from + v : from + u;
+            level.mesh.triangles.push_back({from, b, from + u + v});
+            level.mesh.triangles.push_back({from, from + u + v, d});
+            glm::vec3 normal(0), colour(0.2f);
+            normal[axis] = side ? 1 : -1;
+            colour[axis] = side ? 1 : 0.6f;
+            for (int k = 0; k < 2; ++k) {
+                normals.push_back({normal, normal, normal});
+                colours.push_back({colour, colour, colour});
+            }
+        }
+    level.wedges = take_corner_values(level.mesh, normals, colours);
+    return level;
+}
+
+/// A texture's seams and creases at other places.
+Level creased_torus() {
+    Level level = textured_torus(12, 8, 32);
+    CornerValues normals(level.mesh.triangles.size());
+    for (std::size_t t = 0; t < normals.size(); ++t)
+        normals[t].fill(t % 5 == 0 ? glm::vec3(0, 0, 1) : level.mesh.normals[level.mesh.triangles[t][0]]);
+    level.wedges = take_corner_values(level.mesh, normals, {});
+    return level;
+}
+
+/// Triangles by the places, normals and colours of their corners, in thousandths, whatever their order.
+auto by_place(const Level& level, bool normals, bool colours, float step = 1e-3f) {
+    std::multiset<std::vector<long>> all;
+    for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t) {
+        std::array<std::vector<long>, 3> corners;
+        for (int k = 0; k < 3; ++k) {
+            const auto add = [&](const glm::vec3& v, float by) {
+                for (int c = 0; c < 3; ++c) corners[k].push_back(std::lround(v[c] / by));
+            };
+            add(glm::vec3(level.mesh.positions[level.mesh.triangles[t][k]]), 1e-3f);
+            if (normals) add(corner_normals(level.mesh, level.wedges, t)[k], step);
+            if (colours) add(corner_colours(level.mesh, level.wedges, t)[k], step);
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        std::vector<long> one;
+        for (const auto& corner : corners) one.insert(one.end(), corner.begin(), corner.end());
+        all.insert(one);
+    }
+    return all;
+}
+
+void expect_closed(const Level& read, std::size_t vertices) {
+    const MeshCheck check = check_mesh(read.mesh);
+    EXPECT_TRUE(check.closed_manifold()) << describe(check);
+    EXPECT_EQ(check.vertices, vertices);
+    EXPECT_TRUE(fits(read.mesh, read.wedges));
+}
+
+struct Scene {
+    explicit Scene(const std::string& path) : scene(aiImportFile(path.c_str(), 0), aiReleaseImport) {}
+    std::unique_ptr<const aiScene, decltype(&aiReleaseImport)> scene;
+};
+
+} // namespace
+
+TEST(WedgesInFiles, ComeBackFromGlb) {
+    const Folder folder;
+    for (const Compression compression : {Compression::none, Compression::quantize, Compression::meshopt}) {
+        SCOPED_TRACE(int(compression));
+        std::vector levels{cube(), cube("level 1")};
+        round_levels(levels, compression);
+        write_levels(folder / "c.glb", levels, {.compression = compression});
+        for (const Level& read : read_levels(folder / "c.glb")) {
+            expect_closed(read, 8);
+            EXPECT_EQ(read.wedges.normals.size(), 24u);
+            EXPECT_TRUE(by_place(read, true, true) == by_place(levels[0], true, true));
+        }
+    }
+}
+
+TEST(WedgesInFiles, ComeBackFromPlyAndTheirNormalsFromObj) {
+    const Folder folder;
+    const Level level = cube();
+    write_levels(folder / "c.ply", std::vector{level});
+    const Level ply = read_levels(folder / "c.ply").at(0);
+    expect_closed(ply, 8);
+    EXPECT_EQ(ply.wedges.normals.size(), 24u);
+    EXPECT_TRUE(by_place(ply, true, true) == by_place(level, true, true));
+    write_levels(folder / "c.obj", std::vector{level});
+    const Level obj = read_levels(folder / "c.obj").at(0);
+    expect_closed(obj, 8);
+    EXPECT_EQ(obj.wedges.normals.size(), 24u);
+    EXPECT_TRUE(by_place(obj, true, false) == by_place(level, true, false));
+    EXPECT_EQ(obj.mesh.colours.size(), 8u);
+}
+
+TEST(WedgesInFiles, StandBesideSeamsOfATexture) {
+    const Folder folder;
+    const Level level = creased_torus();
+    ASSERT_FALSE(level.wedges.empty());
+    for (const char* name : {"t.glb", "t.obj", "t.ply"}) {
+        SCOPED_TRACE(name);
+        write_levels(folder / name, std::vector{level});
+        const Level read = read_levels(folder / name).at(0);
+        expect_closed(read, 96);
+        EXPECT_TRUE(by_place(read, true, false) == by_place(level, true, false));
+        if (std::string(name) == "t.glb") {
+            EXPECT_EQ(read.texture.coordinates, level.texture.coordinates);
+        }
+    }
+}
+
+TEST(WedgesInFiles, AreSplitVerticesForOthers) {
+    const Folder folder;
+    write_levels(folder / "c.glb", std::vector{cube()});
+    write_levels(folder / "c.obj", std::vector{cube()});
+    for (const char* name : {"c.glb", "c.obj"}) {
+        SCOPED_TRACE(name);
+        const Scene read((folder / name).string());
+        ASSERT_TRUE(read.scene) << aiGetErrorString();
+        ASSERT_EQ(read.scene->mNumMeshes, 1u);
+        const aiMesh& mesh = *read.scene->mMeshes[0];
+        EXPECT_EQ(mesh.mNumFaces, 12u);
+        if (std::string(name) == "c.glb") {
+            EXPECT_EQ(mesh.mNumVertices, 24u);
+        }
+        ASSERT_TRUE(mesh.HasNormals());
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const auto& i = mesh.mFaces[f].mIndices;
+            const aiVector3D face = ((mesh.mVertices[i[1]] - mesh.mVertices[i[0]]) ^
+                                     (mesh.mVertices[i[2]] - mesh.mVertices[i[0]])).Normalize();
+            for (int k = 0; k < 3; ++k) EXPECT_GT(face * mesh.mNormals[i[k]], 0.999f) << f;
+        }
+    }
+}
+
+TEST(WedgesInFiles, KhronosValidatorFindsNothing) {
+    const Folder folder;
+    int k = 0;
+    for (const Compression compression : {Compression::none, Compression::quantize, Compression::meshopt})
+        for (const Level& level : {cube(), creased_torus()})
+            write_levels(folder / (std::to_string(k++) + ".glb"), std::vector{level}, {.compression = compression});
+    const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
+    EXPECT_EQ(ran.status, 0) << ran.output;
+}
+
+/// Corners of a vertex with the same values are one wedge; a vertex without a second needs none.
+TEST(WedgesInFiles, EqualCornersAreNoWedges) {
+    Mesh mesh = torus(12, 8);
+    CornerValues normals;
+    for (const Triangle& t : mesh.triangles)
+        normals.push_back({mesh.normals[t[0]], mesh.normals[t[1]], mesh.normals[t[2]]});
+    const std::vector<glm::vec3> before = mesh.normals;
+    EXPECT_TRUE(take_corner_values(mesh, normals, {}).empty());
+    EXPECT_EQ(mesh.normals, before);
+    normals[0][0] = {0, 1, 0};
+    const Wedges one = take_corner_values(mesh, normals, {});
+    EXPECT_EQ(one.normals.size(), mesh.positions.size() + 1);
+    EXPECT_TRUE(one.colours.empty());
+}
