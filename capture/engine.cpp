@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <glm/glm.hpp>
 #include <memory>
@@ -34,6 +35,12 @@ std::string obstacle(const GlTable& gl, int n) {
     if (n > largest)
         return "n is " + std::to_string(n) + ", this OpenGL draws at most " + std::to_string(largest);
     return {};
+}
+
+std::string corner(const glm::dvec3& p) {
+    char text[100];
+    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
+    return text;
 }
 
 std::optional<Box> find_box_with(const GlTable& gl, PassRunner& passes, const EngineOptions& options) {
@@ -81,7 +88,10 @@ class Capture {
         if (options.most_layers > 1) choose_method();
         for (Axis axis : {Axis::x, Axis::y, Axis::z})
             if (!capture_axis(target, axis)) return;
-        if (covered == 0) report.error = "nothing solid was drawn";
+        if (covered == 0)
+            report.error = options.box ? "nothing solid was drawn inside the box that was asked for, from " +
+                                             corner(report.box.lo) + " to " + corner(report.box.lo + report.box.size)
+                                       : "nothing solid was drawn";
         if (options.most_layers > 1) judge_layers();
     }
 

@@ -11,12 +11,13 @@
 #include <stdexcept>
 
 #include "capture/capture_file.h"
+#include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
-#include "capture/output_name.h"
+#include "shim/preload/patience.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
@@ -89,6 +90,16 @@ class SiblingScope {
     const NativeContext* entered = nullptr;
 };
 
+/// glcast-run says itself what is told.
+PatienceLines patience_lines() {
+    return {.slow =
+                [](const std::string& text) {
+                    tell("slow", text);
+                    if (!has_status_file()) say("%s", text.c_str());
+                },
+            .progress = [](const std::string& text) { tell("progress", text); }};
+}
+
 CastResult failure(const std::string& why) { return {CastOutcome::failed, "nothing captured: " + why}; }
 
 std::optional<Box> find_scene_box(const GlTable& gl, const DrawFunction& draw, const Group& group,
@@ -118,13 +129,16 @@ CaptureInfo make_info(long number, const Options& options, const EngineOptions& 
 
 /// Engine to file, image by image.
 CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const CaptureInfo& info,
-                         const EngineOptions& engine, const std::string& path) {
+                         const EngineOptions& engine, const std::string& path, Patience& patience) {
     const int most_parts = 3 * (1 + engine.most_layers);
     const auto start = std::chrono::steady_clock::now();
     CaptureWriter writer(path, info, most_parts);
     if (!writer.error().empty()) return failure(writer.error());
     const EngineReport report =
-        run_capture(gl, draw, engine, [&](ViewImage&& image) { return writer.add(std::move(image)); });
+        run_capture(gl, draw, engine, [&](ViewImage&& image) {
+            patience.image_is_done(image.view);
+            return writer.add(std::move(image));
+        });
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
     if (!writer.finish(report.layers, report.layer_method)) return failure(writer.error());
@@ -204,6 +218,7 @@ class Cast {
     SiblingScope siblings;
     std::vector<Scene> scenes;
     std::vector<Candidate> candidates;
+    mutable Patience patience{options.most_seconds, patience_lines()};
     bool has_drawn = false, has_only_looked = false;
 
     /// Asked of GL itself: glvnd has the entry points in any case.
@@ -223,6 +238,7 @@ class Cast {
     DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
         wanted.transparent = transparent;
         return [this, &candidate, wanted](const GlTable& table) {
+            patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
                 if (candidate.in_part[part] >= 0)
                     replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table);
@@ -311,6 +327,7 @@ class Cast {
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
+        if (!engine.box && !patience.over().empty()) return failure(patience.over());
         if (!engine.box) {
             CastResult nothing = nothing_solid();
             if (shows_when_kept(candidate, engine)) nothing.held.see_through = nothing.held.solid;
@@ -375,7 +392,7 @@ class Cast {
         CaptureInfo info = make_info(number, options, engine, gl);
         info.not_understood = std::move(not_understood);
         const std::string path = output_name(options.out, getpid(), number);
-        CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path);
+        CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path, patience);
         if (result.outcome != CastOutcome::captured) return result;
         if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
         if (result.outcome != CastOutcome::captured) return result;
@@ -400,7 +417,7 @@ class Cast {
             info.box = *engine.box;
             info.eye_to_capture = engine.eye_to_capture;
             info.from_capture = rotation;
-            const CastResult result = write_capture(gl, draw, info, engine, reference_name(path, ++count));
+            const CastResult result = write_capture(gl, draw, info, engine, reference_name(path, ++count), patience);
             if (result.outcome != CastOutcome::captured) return result;
         }
         return captured;

@@ -15,6 +15,7 @@
 #include "capture/reference_views.h"
 #include "capture/output_name.h"
 #include "shim/preload/similarity.h"
+#include "shim/preload/start.h"
 
 namespace glcast::preload {
 namespace {
@@ -45,6 +46,9 @@ bool parse_switch(const std::string& text, bool& on) {
     return on || text == "0" || text == "no" || text == "false";
 }
 
+/// GL works in floats: it has no numbers beyond, and cannot tell the samples of a smaller box apart.
+constexpr double farthest_box = 1e30, smallest_box = 1e-6;
+
 bool parse_box(const std::string& text, Options& options) {
     const std::vector<double> v = parse_list(text);
     if (v.size() != 6) return false;
@@ -52,6 +56,8 @@ bool parse_box(const std::string& text, Options& options) {
     const glm::dvec3 size = b - a;
     if (!(size.x > 0 && size.y > 0 && size.z > 0)) return false;
     const double edge = std::max({size.x, size.y, size.z});
+    const double far = std::max({-a.x, -a.y, -a.z, b.x, b.y, b.z});
+    if (far > farthest_box || edge < far * smallest_box) return false;
     options.box = Box{(a + b - edge) / 2.0, edge};
     return true;
 }
@@ -157,7 +163,7 @@ constexpr Variable variables[] = {
     {"GLCAST_LAYERS", "auto, slab, or a whole number from 1 to 256", parse_layers},
     {"GLCAST_SHADERS", "0 or 1",
      [](const std::string& t, Options& o) { return parse_switch(t, o.use_shaders); }},
-    {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1", parse_box},
+    {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1, none beyond 1e30, and a millionth of that apart", parse_box},
     {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
      parse_frame_matrix},
     {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
@@ -181,6 +187,10 @@ constexpr Variable variables[] = {
     {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
     {"GLCAST_MEMORY", "MiB, a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},
+    {"GLCAST_MAX_SECONDS", "seconds, more than 0",
+     [](const std::string& t, Options& o) {
+         return parse_number(t, o.most_seconds) && std::isfinite(o.most_seconds) && o.most_seconds > 0;
+     }},
     {"GLCAST_READ_ENDS", "0 or 1",
      [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
     {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
@@ -195,6 +205,7 @@ std::string check_output(const std::string& out) {
     if (!std::filesystem::is_directory(folder, ignored))
         return "cannot write " + out + ": no folder " + folder.string();
     if (std::filesystem::is_directory(path, ignored)) return "cannot write " + out + ": it is a folder";
+    if (std::filesystem::is_other(path, ignored)) return "cannot write " + out + ": it is a device, a pipe or a socket";
     if (access(folder.c_str(), W_OK) != 0) return "cannot write " + out + ": " + std::strerror(errno);
     return {};
 }
@@ -221,7 +232,8 @@ Options read_options() {
         options.captures = repeats && !options.quit ? 0 : 1;
     }
     const char* out = std::getenv("GLCAST_OUT");
-    options.out = out ? out : "";
+    options.out = absolute_at_start(out ? out : "");
+    options.list_picture = absolute_at_start(options.list_picture);
     const std::string& file = options.list ? options.list_picture : options.out;
     if (!file.empty()) options.error = check_output(file);
     if (!options.list && !file.empty() && options.error.empty() && !file.ends_with(".exr"))

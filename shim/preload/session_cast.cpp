@@ -1,14 +1,15 @@
 // The frames of a session that have ended: which are cast, and what is told of the others.
+#include <malloc.h>
 #include <signal.h>
 
 #include <cstdlib>
 #include <thread>
 
 #include "shim/preload/cast.h"
-#include "shim/preload/meant_program.h"
 #include "shim/preload/own_stack.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
+#include "shim/preload/start.h"
 #include "shim/preload/status.h"
 
 namespace glcast::preload {
@@ -151,7 +152,7 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 bool is_captured_by_a_child() {
     const char* out = std::getenv("GLCAST_OUT");
-    return out && written_since_start(out);
+    return out && written_since_start(absolute_at_start(out));
 }
 
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
@@ -226,21 +227,23 @@ class HeldContexts {
     }
 };
 
-void cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
-    if (s.casting.exchange(true)) return; // another thread casts
+/// Whether a frame was drawn for it.
+bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
+    if (s.casting.exchange(true)) return false; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
         ~Over() { casting = false; }
     } const over{s.casting};
-    if (!s.triggers.waiting()) return; // it has cast the last that was wanted
+    if (!s.triggers.waiting()) return false; // it has cast the last that was wanted
     const HeldContexts held(s, parts, current);
-    if (parts.empty()) return;
+    if (parts.empty()) return false;
     const auto turn = take_turn(s, *parts.front().context, window.second);
-    if (!turn) return;
+    if (!turn) return false;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
-    if (among_windows(s, window.second, result)) return;
-    nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+    if (!among_windows(s, window.second, result))
+        nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+    return !nothing;
 }
 
 } // namespace
@@ -248,7 +251,12 @@ void cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number) {
     if (parts.empty()) return frame_without_cast(s, {});
-    on_own_stack(HeldSignals::handled, [&] { cast_or_pass(s, parts, current, window, number); });
+    bool has_drawn = false;
+    on_own_stack(HeldSignals::handled, [&] { has_drawn = cast_or_pass(s, parts, current, window, number); });
+    parts.clear();
+    if (!has_drawn) return;
+    record::give_back_spare_memory();
+    malloc_trim(0); // images, and the driver's textures, would stay in the program's heap
 }
 
 } // namespace glcast::preload

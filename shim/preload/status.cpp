@@ -15,6 +15,7 @@
 
 #include "shim/preload/quiet_write.h"
 #include "shim/preload/standard_error.h"
+#include "shim/preload/start.h"
 
 namespace glcast::preload {
 namespace {
@@ -50,7 +51,7 @@ std::string make_line(const std::string& text) {
 const std::string& status_file() {
     static const auto* const path = [] { // never destroyed: threads may outlive exit()
         const char* const value = std::getenv("GLCAST_STATUS");
-        return new std::string(value ? value : "");
+        return new std::string(absolute_at_start(value ? value : ""));
     }();
     return *path;
 }

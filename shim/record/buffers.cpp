@@ -99,15 +99,15 @@ Blob whole_buffer(Context& context, GLuint name) {
     const Limits& limits = context.get_limits();
     if (!is_readable(buffer, limits) || is_persistent(buffer, limits)) return nullptr;
     const std::size_t size = size_of(buffer);
-    if (context.recording) {
-        std::size_t& copied = context.recording->copied_bytes;
-        if (size > memory_limit - std::min(copied, memory_limit)) throw std::bad_alloc();
-        copied += size;
-    }
-    auto copy = std::make_shared<std::vector<std::byte>>(size);
+    struct Copy {
+        Charge charge;
+        std::vector<std::byte> bytes;
+    };
+    const auto made = std::make_shared<Copy>(Copy{Charge(size), std::vector<std::byte>(size)});
+    const std::shared_ptr<std::vector<std::byte>> copy(made, &made->bytes);
     buffer.read(0, copy->data(), copy->size());
     const std::lock_guard lock(group.mutex);
-    return group.buffers[name] = std::move(copy);
+    return group.buffers[name] = copy;
 }
 
 } // namespace glcast::record

@@ -7,7 +7,6 @@ namespace glcast::record {
 
 std::atomic<std::uint32_t> active{0};
 thread_local Thread this_thread;
-std::size_t memory_limit = SIZE_MAX;
 
 namespace {
 
@@ -119,8 +118,6 @@ std::shared_ptr<Context> make_context(const GlTable& real, const std::shared_ptr
 }
 
 bool share_objects(const Context& a, const Context& b) { return a.group == b.group; }
-
-void set_memory_limit(std::size_t bytes) { memory_limit = bytes; }
 
 void set_current(Context* context, const GlTable& fallback) {
     this_thread.context = context;

@@ -53,6 +53,7 @@ struct TextureCopy {
     GLuint name = 0; ///< the program's
     GLenum target = 0;
     Stream contents; ///< its images and parameters
+    Charge at_replay; ///< what the texture takes in the driver that replays make of it
 };
 
 struct Frame {
@@ -82,8 +83,6 @@ struct Limits {
     }
 };
 
-extern std::size_t memory_limit;
-
 /// A frame that is being recorded.
 struct Recording {
     std::shared_ptr<Frame> frame = std::make_shared<Frame>();
@@ -94,7 +93,6 @@ struct Recording {
     int lowest[stack_count] = {}; ///< likewise of each matrix stack; 0: not watched, nothing lies below
     std::unordered_map<const void*, std::uint32_t> blob_numbers;
     std::unordered_map<GLuint, int> buffer_changes;
-    std::size_t copied_bytes = 0; ///< of whole buffers
     struct TextureUse {
         GLenum target;
         std::uint64_t draws; ///< when it was bound first, or copied last
@@ -104,7 +102,6 @@ struct Recording {
     std::uint64_t draws = 0;
     bool calls_lists = false; ///< which may bind any texture
     std::optional<std::unordered_map<GLuint, GLenum>> list_textures; ///< their targets; found when first asked for
-    std::size_t texture_bytes = 0;
     std::string given_up; ///< why; empty while all is well
 };
 
@@ -113,9 +110,7 @@ struct Compilation {
     GLuint name;
     bool executes;
     std::shared_ptr<Stream> stream = std::make_shared<Stream>();
-    Compilation(GLuint list, bool executes_too) : name(list), executes(executes_too) {
-        stream->most_bytes = memory_limit;
-    }
+    Compilation(GLuint list, bool executes_too) : name(list), executes(executes_too) {}
 };
 
 /// One client array, as queried.

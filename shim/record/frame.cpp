@@ -23,7 +23,6 @@ bool query_is_active(const GlTable& gl, const Limits& limits) {
 
 void start_recording(Context& context) {
     auto recording = std::make_unique<Recording>();
-    recording->frame->prologue.most_bytes = recording->frame->calls.most_bytes = memory_limit;
     write_state(context, recording->frame->prologue, true);
     read_matrices(context, *recording);
     note_bound_textures(*recording);
@@ -82,7 +81,6 @@ std::shared_ptr<const Frame> end_frame(Context& context, std::string* why) {
     }
     for (std::size_t i = 0; i < gl_call_count; ++i)
         if (recording->counts[i]) recording->frame->not_understood[gl_call_names[i]] += recording->counts[i];
-    recording->frame->calls.shrink();
     return recording->frame;
 }
 

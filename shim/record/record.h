@@ -37,9 +37,12 @@ const GlTable& table();
 extern std::atomic<std::uint32_t> active;
 bool always_shadowed(GlCall call);
 
-/// The most bytes that a frame's calls, or one list, or the buffers that a frame copies may take; more than that is as
-/// if memory had run out. For the whole process; to be set before anything is recorded.
+/// The most bytes that all frames and lists may take together: calls, copies of buffers and of textures, and the textures
+/// that replays make of these; more than that is as if memory had run out. For the whole process.
 void set_memory_limit(std::size_t bytes);
+
+/// Up to 8 MiB of what was recorded before is kept for the next frame: goes back to the system.
+void give_back_spare_memory();
 
 /// Why a frame cannot be recorded from here: null when it can, else "inside glBegin", "a display list is
 /// open", ...

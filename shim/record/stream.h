@@ -8,10 +8,10 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <vector>
+
+#include "shim/record/memory.h"
 
 namespace glcast::record {
 
@@ -29,8 +29,8 @@ class Stream {
     Stream(Stream&&) = default;
     Stream& operator=(Stream&&) = default;
 
-    /// Room for a packet's body of `bytes`, aligned to 4. Throws std::bad_alloc, also when it would take more than
-    /// `most_bytes`, and is then as it was.
+    /// Room for a packet's body of `bytes`, aligned to 4. Throws std::bad_alloc, also when all recordings would take more
+    /// than their limit, and is then as it was.
     std::byte* append(Op op, std::size_t bytes);
 
     /// Gives back what the last chunk holds too much: display lists are many and small.
@@ -40,7 +40,7 @@ class Stream {
 
     template <class Visitor> void for_each(Visitor&& visit) const {
         for (const Chunk& chunk : chunks) {
-            const std::byte* at = chunk.data.get();
+            const std::byte* at = chunk.block.data();
             const std::byte* const end = at + chunk.used;
             while (at != end) {
                 const Packet packet = read_header(at);
@@ -53,16 +53,12 @@ class Stream {
     /// How a list leaves Begin/End: glBegin in one list and glEnd in another is legal.
     enum class BeginState : std::uint8_t { unchanged, inside, outside };
     BeginState begin_state = BeginState::unchanged;
-    std::size_t most_bytes = SIZE_MAX;
     bool opaque = false; ///< GL has this list and we do not know its contents (glXUseXFont, out of memory)
 
   private:
-    struct Free {
-        void operator()(std::byte* data) const { std::free(data); }
-    };
     struct Chunk {
-        std::unique_ptr<std::byte[], Free> data;
-        std::size_t used = 0, capacity = 0;
+        Block block;
+        std::size_t used = 0;
     };
     static Packet read_header(const std::byte* at) {
         std::uint32_t header;
@@ -77,7 +73,6 @@ class Stream {
     static constexpr std::uint32_t long_packet = 0xFFFF;
     static constexpr std::size_t first_chunk = 256, largest_chunk = std::size_t(1) << 20;
     std::vector<Chunk> chunks;
-    std::size_t chunk_bytes = 0; ///< all their capacities
 };
 
 /// Appends values one behind the other into a body; `Reader` takes them out again.

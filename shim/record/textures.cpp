@@ -1,5 +1,7 @@
 #include "shim/record/textures.h"
 
+#include <algorithm>
+
 #include "shim/record/bound_objects.h"
 #include "shim/record/packets.h"
 #include "shim/record/snapshot.h"
@@ -56,20 +58,37 @@ bool is_sampled(Context& context, GLenum target) {
     return true;
 }
 
+/// What a texture like the one that is bound takes in a driver, about: whole words a texel, and a third more for smaller
+/// levels.
+std::size_t driver_bytes(Context& context, GLenum target) {
+    const bool is_cube = target == GL_TEXTURE_CUBE_MAP;
+    const auto get = [&](GLenum name) {
+        GLint value = 0;
+        context.real.GetTexLevelParameteriv(is_cube ? GLenum(GL_TEXTURE_CUBE_MAP_POSITIVE_X) : target, 0, name, &value);
+        return std::size_t(std::max(value, 0));
+    };
+    std::size_t bits = 0;
+    for (const GLenum size : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                              GL_TEXTURE_LUMINANCE_SIZE, GL_TEXTURE_INTENSITY_SIZE})
+        bits += get(size);
+    if (context.get_limits().has(14)) bits += get(GL_TEXTURE_DEPTH_SIZE);
+    const std::size_t depth = context.get_limits().has(12) ? std::max<std::size_t>(get(GL_TEXTURE_DEPTH), 1) : 1;
+    const std::size_t texels = get(GL_TEXTURE_WIDTH) * std::max<std::size_t>(get(GL_TEXTURE_HEIGHT), 1) * depth;
+    return texels * ((bits + 31) / 32 * 4) * (is_cube ? 6 : 1) / 3 * 4;
+}
+
 /// Keeps what the texture that is bound to `target` holds now; its number, or nothing where fixed functions
 /// do not sample it.
 std::optional<std::uint32_t> copy_bound(Context& context, GLuint name, GLenum target) {
     Recording& recording = *context.recording;
-    if (recording.texture_bytes >= memory_limit) throw std::bad_alloc();
     if (!is_sampled(context, target)) return std::nullopt;
-    TextureCopy copy{name, target, {}};
-    copy.contents.most_bytes = memory_limit - recording.texture_bytes;
+    TextureCopy copy{name, target, {}, {}};
     {
         const DefaultTransfer transfer(context.real);
         write_texture(context, copy.contents, target);
     }
     copy.contents.shrink();
-    recording.texture_bytes += copy.contents.allocated_bytes();
+    copy.at_replay = Charge(driver_bytes(context, target));
     recording.frame->textures.push_back(std::move(copy));
     return std::uint32_t(recording.frame->textures.size() - 1);
 }

@@ -18,6 +18,7 @@
 #include "tools/run/mesh_step.h"
 #include "tools/run/options.h"
 #include "tools/run/process.h"
+#include "tools/run/progress.h"
 #include "tools/run/report.h"
 #include "tools/run/status.h"
 
@@ -105,7 +106,9 @@ int read_signals(int signals) {
 std::string wait_for_cast(const Options& options, Program& program, StatusPipe& pipe, int signals, Seen& seen,
                           const std::function<void()>& progress) {
     const auto started = std::chrono::steady_clock::now();
+    ProgressLine line;
     for (;;) {
+        line.show(seen);
         const bool waiting = !seen.finished(options.captures); // the time limit is for the cast, not for the program
         pollfd events[] = {{pipe.file_descriptor(), POLLIN, 0}, {signals, POLLIN, 0}};
         const int ready = poll(events, 2, waiting ? poll_timeout(options, started) : -1);
@@ -117,6 +120,7 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
         program.reap();
         const bool alive = program.alive(); // before the last look at the pipe, so that no line is missed
         pipe.read_into(seen);
+        line.clear();
         progress();
         if (options.quit && seen.finished(options.captures)) {
             return "done";

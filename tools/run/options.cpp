@@ -47,12 +47,16 @@ std::string check_box(const std::string& text) {
     if (!v) {
         return "needs six numbers: x0,y0,z0,x1,y1,z1";
     }
+    double edge = 0, far = 0;
     for (int axis = 0; axis < 3; ++axis) {
         if (!((*v)[axis] < (*v)[axis + 3])) {
             return "x0,y0,z0 must be below x1,y1,z1";
         }
+        edge = std::max(edge, (*v)[axis + 3] - (*v)[axis]);
+        far = std::max({far, -(*v)[axis], (*v)[axis + 3]});
     }
-    return {};
+    // The same bounds as in shim/preload/options.cpp: GL works in floats.
+    return far > 1e30 || edge < far * 1e-6 ? "no number may be beyond 1e30, and the corners a millionth of that apart" : "";
 }
 
 /// Rotation, uniform scale and translation only: anything else would bend the normals and the lattice.
@@ -232,6 +236,10 @@ void declare(CLI::App& app, Options& o) {
                        std::to_string(static_cast<int>(default_quit_timeout_seconds)) +
                        " with --quit or --headless, else never)")
         ->check(seconds_from(0.001));
+    app.add_option("--max-seconds", o.most_seconds,
+                   "Give up a cast that takes longer, and let the program run on (default: never)")
+        ->envname("GLCAST_MAX_SECONDS")
+        ->check(seconds_from(0.001));
     app.add_flag("--keep-capture", o.keep_capture, "Of a mesh: keep the capture too, beside it, as .exr");
     app.add_flag("--verbose", o.verbose, "Say also how, with figures");
     app.add_flag("--json", o.json,
@@ -352,6 +360,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_TRANSPARENT", o.transparent},
         {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
+        {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
         {"GLCAST_VERBOSE", o.verbose ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},
     };

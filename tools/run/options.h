@@ -33,6 +33,7 @@ struct Options {
     std::string include, transparent;
     double view_angle = 0; ///< degrees; 0: not told
     double timeout_seconds = 0;       ///< 0: no limit
+    double most_seconds = 0;          ///< of one cast; 0: no limit
     bool verbose = false, json = false;
     std::vector<std::string> program; ///< name and arguments
 };

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace glcast::run {
@@ -36,6 +37,8 @@ void take_line(const std::string& line, Seen& seen) {
         {"settled", [](const std::string&, Seen& s) { s.looking = false; }},
         {"failed",
          [](const std::string& rest, Seen& s) { s.failed = rest.empty() ? "the capture failed" : rest; }},
+        {"slow", [](const std::string& rest, Seen& s) { s.slow = rest; }},
+        {"progress", [](const std::string& rest, Seen& s) { s.progress = rest; }},
         {"unsaid",
          [=](const std::string& rest, Seen& s) {
              s.unsaid = std::max(s.unsaid, number(rest));
@@ -45,6 +48,10 @@ void take_line(const std::string& line, Seen& seen) {
         {"listed", [](const std::string&, Seen& s) { s.listed = true; }},
     };
     const auto space = std::min(line.find(' '), line.size());
+    const std::string_view word(line.data(), space);
+    if (word == "captured" || word == "recaptured" || word == "failed" || word == "listed") {
+        seen.progress.clear();
+    }
     if (const auto kind = kinds.find(line.substr(0, space)); kind != kinds.end()) {
         kind->second(line.substr(std::min(space + 1, line.size())), seen);
     }
@@ -59,6 +66,7 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     }
     if (seen.casting > 0) {
         return "the capture of frame " + std::to_string(seen.casting) + " was not complete: " + ending +
+               (seen.progress.empty() ? "" : ", at " + seen.progress) +
                " (a longer --timeout or a smaller -n helps)";
     }
     if (!seen.waits.empty() && seen.frames == 0) {

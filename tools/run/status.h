@@ -23,6 +23,8 @@ struct Seen {
     std::string figures;           ///< of the capture that comes next
     std::vector<Capture> captures; ///< complete, in the order in which they came
     std::string failed;
+    std::string slow;       ///< why the cast will take long
+    std::string progress;   ///< of a long cast, how far it is; empty: none is under way
     long unsaid = 0;        ///< lines of the library that the program's stderr did not take
     std::string unsaid_why; ///< the last time
     std::vector<std::string> groups;

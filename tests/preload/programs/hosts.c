@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/time.h>
+#include <unistd.h>
 #ifdef __x86_64__
 #include <xmmintrin.h>
 #endif
@@ -159,6 +160,67 @@ static int interrupted(int unused) {
     return failed ? failed : strange;
 }
 
+/* Three frames, each of so many thousand triangles, call by call. */
+static int heavy(int thousands) {
+    for (int i = 0; i < 3; ++i) {
+        look_at_chiral(120);
+        glBegin(GL_TRIANGLES);
+        for (int k = 0; k < 1000 * thousands; ++k) {
+            const float x = k % 1000 * 0.002f, y = k / 1000 % 1000 * 0.002f;
+            glNormal3f(0, 0, 1);
+            glVertex3f(x, y, 0), glVertex3f(x + 0.002f, y, 1), glVertex3f(x, y + 0.002f, 0);
+        }
+        glEnd();
+        glXSwapBuffers(display, window);
+    }
+    return 0;
+}
+
+static long memory_kib(const char* what) {
+    char line[200];
+    long kib = 0;
+    FILE* file = fopen("/proc/self/status", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, what, strlen(what)) == 0) sscanf(line + strlen(what), ": %ld", &kib);
+    if (file) fclose(file);
+    return kib;
+}
+/* Fills a texture of a MiB so often in a frame, and draws from it each time. Prints its memory in KiB: most,
+ * and then. */
+static int fill_often(int count, GLuint texture) {
+    static unsigned char image[512][512][4];
+    memset(image, 99, sizeof image);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glEnable(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 512, 512, 0, GL_RGBA, GL_UNSIGNED_BYTE, image);
+    for (int frame = 0; frame < 3; ++frame) {
+        look_at_chiral(120);
+        for (int i = 0; i < count; ++i) {
+            image[0][0][0] = i;
+            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 512, 512, GL_RGBA, GL_UNSIGNED_BYTE, image);
+            glBegin(GL_TRIANGLES);
+            glVertex3f(0, 0, 0), glVertex3f(1, 0, i * 0.001f), glVertex3f(0, 1, 0);
+            glEnd();
+        }
+        draw_chiral();
+        glXSwapBuffers(display, window);
+    }
+    printf("memory %ld %ld\n", memory_kib("VmHWM"), memory_kib("VmRSS"));
+    return 0;
+}
+
+static int fillings(int count) { return fill_often(count, 1); }
+static int unnamed_fillings(int count) { return fill_often(count, 0); }
+
+/* Goes to another folder before its first frame ends. */
+static int moves(int unused) {
+    (void)unused;
+    if (chdir("elsewhere")) return 73;
+    draw_frames();
+    return 0;
+}
+
 static const struct {
     const char* name;
     int (*run)(int kib);
@@ -170,7 +232,11 @@ static const struct {
              {"flushing", flushing},
              {"single", single},
              {"flags", flags},
-             {"interrupted", interrupted}};
+             {"interrupted", interrupted},
+             {"heavy", heavy},
+             {"moves", moves},
+             {"fillings", fillings},
+             {"unnamed_fillings", unnamed_fillings}};
 
 int main(int argc, char** argv) {
     XInitThreads();

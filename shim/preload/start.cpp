@@ -1,9 +1,11 @@
-#include "shim/preload/meant_program.h"
+#include "shim/preload/start.h"
 
+#include <limits.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 
@@ -16,6 +18,7 @@ constexpr long clock_step = 10'000'000; ///< ns: file times come from a clock th
 struct Start {
     pid_t process, parent;
     timespec time;
+    char folder[PATH_MAX]; ///< empty: unknown
 };
 constinit Start start{};
 
@@ -23,6 +26,9 @@ constinit Start start{};
     start.process = getpid();
     start.parent = getppid();
     clock_gettime(CLOCK_REALTIME, &start.time);
+    const int saved = errno;
+    if (!getcwd(start.folder, sizeof start.folder) || start.folder[0] != '/') start.folder[0] = 0;
+    errno = saved;
 }
 
 /// Both variables that make the preload act, as this process has them, stand in the parent's environment.
@@ -44,6 +50,12 @@ bool parent_has_the_preload() {
 bool is_meant_program() {
     if (getpid() != start.process || getppid() != start.parent) return false;
     return !parent_has_the_preload();
+}
+
+std::string absolute_at_start(const std::string& file) {
+    if (file.empty() || file[0] == '/' || !start.folder[0]) return file;
+    const std::string folder = start.folder;
+    return folder.back() == '/' ? folder + file : folder + "/" + file;
 }
 
 bool written_since_start(const std::string& file) {
