@@ -152,6 +152,20 @@ void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<
 
 } // namespace
 
+const char* why_no_box(const Box& box, int n) {
+    constexpr double smallest = 1e-18, largest = 1e18, doubles = 0x1p-40; // 52 bits less 12
+    double far = 0;
+    for (int k = 0; k < 3; ++k)
+        for (double end : {box.lo[k], box.lo[k] + box.size}) {
+            if (!std::isfinite(end)) return "the box is not finite";
+            far = std::max(far, std::abs(end));
+        }
+    if (!(box.size > 0)) return "the box is empty";
+    if (box.size < smallest || far > largest) return "the box is too small or too large";
+    if (box.size / n < far * doubles) return "the box is too far from the origin for its size";
+    return nullptr;
+}
+
 std::string part_name(const View& view) {
     return std::string(view.side == Side::minus ? "-" : "+") + "xyz"[static_cast<int>(view.axis)] + "." +
            std::to_string(view.layer);
@@ -206,7 +220,7 @@ bool CaptureWriter::Impl::start() {
     if (!file.error().empty()) return file_failed();
     if (info.n < min_resolution || info.n > max_resolution)
         return fail("n must be from 8 to 8192, not " + std::to_string(info.n));
-    if (!(info.box.size > 0) || !std::isfinite(info.box.size)) return fail("the box is empty");
+    if (const char* why = why_no_box(info.box, info.n)) return fail(why);
     if (most < 6) return fail("a capture needs six views");
     if (most > 3 * (max_layers + 1)) return fail("too many layers");
     header_room = room_for_headers(info, static_cast<int>(most));

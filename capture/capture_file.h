@@ -33,6 +33,10 @@ struct CaptureInfo {
     std::array<int, 3> layer_count{1, 1, 1}; ///< parts -a.0, -a.1, ... of each axis
 };
 
+/// Why a mesh cannot be made in that box: not finite, or not so large that 4096 places between two samples
+/// are different doubles, and that floats hold squares of it. Null where it can.
+const char* why_no_box(const Box& box, int n);
+
 /// "+x.0": side, axis, layer.
 std::string part_name(const View& view);
 

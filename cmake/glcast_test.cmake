@@ -1,4 +1,4 @@
-# glcast_test(NAME LABEL <unit|preload|real|paper|fuzz> SOURCES ... [LIBS ...] [TIMEOUT seconds] [SERIAL])
+# glcast_test(NAME LABEL <unit|preload|real|paper|fuzz|hostile> SOURCES ... [LIBS ...] [TIMEOUT seconds] [SERIAL])
 # A GoogleTest program whose cases are CTest tests with the label. SERIAL: never beside another test of ours.
 include(GoogleTest)
 find_package(GTest REQUIRED)

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "shim/preload/cast.h"
+#include "shim/preload/meant_program.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
 #include "shim/preload/status.h"
@@ -147,6 +148,11 @@ bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result
 
 const char* plural(long count) { return count == 1 ? "" : "s"; }
 
+bool is_captured_by_a_child() {
+    const char* out = std::getenv("GLCAST_OUT");
+    return out && written_since_start(out);
+}
+
 /// Without glcast-run, which tells it itself, somebody has to say why there is no capture.
 [[gnu::destructor]] void report_at_exit() noexcept {
     const auto is_set = [](const char* name) { return std::getenv(name) && *std::getenv(name); };
@@ -154,7 +160,8 @@ const char* plural(long count) { return count == 1 ? "" : "s"; }
     Session* s = session_if_any();
     const std::string program = program_name();
     if (!s || (!s->hooked && !s->settled)) {
-        if (!has_status_file()) say("no GL seen in %s: nothing captured", program.c_str());
+        if (!has_status_file() && is_meant_program() && !is_captured_by_a_child())
+            say("no GL seen in %s: nothing captured", program.c_str());
         return;
     }
     if (!s->is_ours() || s->settled) return;

@@ -14,7 +14,7 @@ runtime=$(echo "$work"/packed/glcast_*.deb) development=$(echo "$work"/packed/li
 
 # What the package says of itself. dpkg-shlibdeps finds what is linked; OSMesa is loaded at run time.
 depends=$(dpkg-deb -f "$runtime" Depends)
-for library in libc6 libopenexr libembree libtbb libosmesa6; do
+for library in libc6 libimath libembree libtbb libosmesa6; do
     [[ $depends == *$library* ]] || fail "$library is not in Depends: $depends"
 done
 

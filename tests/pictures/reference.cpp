@@ -120,8 +120,8 @@ struct ViewError {
 
 PictureSum compare(const Picture& a, const Picture& b) { return {squared_error(a, b), 0, ssim(a, b)}; }
 
-ViewError compare(const Mesh& mesh, const Texture& texture, const ReferenceView& view, int samples) {
-    const SeenImage level = rasterise(mesh, texture, view.camera);
+ViewError compare(const Level& shown, const ReferenceView& view, int samples) {
+    const SeenImage level = rasterise(shown, view.camera);
     const Picture a = lit(view), b = lit(level, view);
     const auto part = [&](bool within) {
         return squared_error(antialiased(a, samples),
@@ -202,11 +202,10 @@ Picture lit(const SeenImage& level, const ReferenceView& where) {
     return light_up(level, where.camera, &dark);
 }
 
-PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views,
-                           int samples) {
+PictureError picture_error(const Level& level, std::span<const ReferenceView> views, int samples) {
     std::vector<ViewError> errors(views.size());
     tbb::parallel_for(std::size_t(0), views.size(),
-                      [&](std::size_t k) { errors[k] = compare(mesh, texture, views[k], samples); });
+                      [&](std::size_t k) { errors[k] = compare(level, views[k], samples); });
     ViewError sum;
     for (const ViewError& error : errors) sum += error;
     PictureError result;

@@ -51,7 +51,6 @@ struct PictureError {
 };
 /// Original and level are drawn with the same `samples` x `samples` samples a pixel, one in each pixel of the
 /// reference view, whose width they divide.
-PictureError picture_error(const Mesh& mesh, const Texture& texture, std::span<const ReferenceView> views,
-                           int samples = 1);
+PictureError picture_error(const Level& level, std::span<const ReferenceView> views, int samples = 1);
 
 } // namespace glcast::pictures

@@ -45,7 +45,7 @@ TEST(PictureError, WhatWasDrawnLooksLikeItself) {
         const std::vector<ReferenceView> views = views_of(shape);
         ASSERT_EQ(views.size(), 36u);
         const Mesh mesh = fixtures::truth(shape);
-        const PictureError same = picture_error(mesh, {}, views);
+        const PictureError same = picture_error(Level{mesh, ""}, views);
         EXPECT_GT(same.one_sample.psnr, 44) << "only pixels on silhouettes may differ";
         EXPECT_GT(same.one_sample.ssim, 0.998);
         EXPECT_LT(same.psnr_covered, same.one_sample.psnr);
@@ -53,7 +53,7 @@ TEST(PictureError, WhatWasDrawnLooksLikeItself) {
         EXPECT_GT(same.psnr_inside, 44);
         EXPECT_GT(same.background_share, 0.2);
         const double sample = views[0].camera.pixel;
-        const PictureError shifted = picture_error(moved(mesh, glm::dvec3(sample)), {}, views);
+        const PictureError shifted = picture_error(Level{moved(mesh, glm::dvec3(sample)), ""}, views);
         EXPECT_LT(shifted.one_sample.psnr, same.one_sample.psnr - 10) << "a sample aside along each axis";
     }
 }
@@ -61,12 +61,12 @@ TEST(PictureError, WhatWasDrawnLooksLikeItself) {
 TEST(PictureError, ColoursAndNormalsCount) {
     const std::vector<ReferenceView> views = views_of("torus");
     Mesh mesh = fixtures::truth("torus");
-    const PictureError same = picture_error(mesh, {}, views);
+    const PictureError same = picture_error(Level{mesh, ""}, views);
     Mesh dark = mesh;
     for (glm::vec3& colour : dark.colours) colour *= 0.8f;
-    EXPECT_LT(picture_error(dark, {}, views).one_sample.psnr, same.one_sample.psnr - 6);
+    EXPECT_LT(picture_error(Level{dark, ""}, views).one_sample.psnr, same.one_sample.psnr - 6);
     for (glm::vec3& normal : mesh.normals) normal = -normal;
-    EXPECT_LT(picture_error(mesh, {}, views).one_sample.psnr, same.one_sample.psnr - 6);
+    EXPECT_LT(picture_error(Level{mesh, ""}, views).one_sample.psnr, same.one_sample.psnr - 6);
 }
 
 /// Every pixel of the error in closed form: a picture that is all background against one square of n x n.
@@ -79,7 +79,7 @@ TEST(PictureError, AMissingSquareInClosedForm) {
     Mesh aside; // out of the picture
     aside.positions = {{10, 10, 0}, {11, 10, 0}, {10, 11, 0}};
     aside.triangles = {{0, 1, 2}};
-    const PictureError error = picture_error(aside, {}, {&view, 1});
+    const PictureError error = picture_error(Level{aside, ""}, {&view, 1});
     const double value = 242.0 / 255, share = double(side * side) / (n * n);
     EXPECT_NEAR(error.one_sample.psnr, -10 * std::log10(value * value * share), 1e-9);
     EXPECT_NEAR(error.psnr_covered, -10 * std::log10(value * value), 1e-9);
@@ -103,7 +103,7 @@ TEST(PictureError, ASquareAsideInClosedForm) {
     square.positions = {corner(21, 40), corner(51, 40), corner(51, 70), corner(21, 70)};
     square.triangles = {{0, 1, 2}, {0, 2, 3}};
     square.colours.assign(4, glm::vec3(0));
-    const PictureError error = picture_error(square, {}, {&view, 1}, 2);
+    const PictureError error = picture_error(Level{square, ""}, {&view, 1}, 2);
     const double half = 121.0 / 255, pixels = n * n / 4.0;
     EXPECT_EQ(error.width, n / 2);
     EXPECT_NEAR(error.antialiased.psnr, -10 * std::log10(half * half * side / pixels), 1e-9);
@@ -111,10 +111,10 @@ TEST(PictureError, ASquareAsideInClosedForm) {
     EXPECT_NEAR(error.psnr_outline, error.antialiased.psnr, 1e-9);
     EXPECT_TRUE(std::isinf(error.psnr_filling));
     square.colours.assign(4, glm::vec3(1)); // 29 of 30 columns of it are white where both are
-    const PictureError white = picture_error(square, {}, {&view, 1}, 1);
+    const PictureError white = picture_error(Level{square, ""}, {&view, 1}, 1);
     EXPECT_NEAR(white.psnr_filling, -10 * std::log10(double(side) * (side - 1) / (n * n)), 1e-9);
     EXPECT_LT(white.psnr_filling, white.psnr_outline);
-    EXPECT_THROW(picture_error(square, {}, {&view, 1}, 7), std::invalid_argument);
+    EXPECT_THROW(picture_error(Level{square, ""}, {&view, 1}, 7), std::invalid_argument);
 }
 
 /// Two ways to draw the same mesh, one of them Mesa's.
@@ -124,7 +124,7 @@ TEST(Raster, SeesWhatOsmesaDraws) {
     const int size = 200;
     const glm::dvec3 way = glm::normalize(glm::dvec3(-1, -2, -0.5));
     const Picture osmesa = picture(mesh, way, size);
-    const Picture own = picture(mesh, {}, way, size);
+    const Picture own = picture(Level{mesh, ""}, way, size);
     long off = 0;
     for (std::size_t i = 0; i < own.rgb.size(); ++i)
         off += std::abs(int(own.rgb[i]) - int(osmesa.rgb[i])) > 6;

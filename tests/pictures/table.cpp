@@ -39,18 +39,18 @@ struct Context {
     Json rows = Json::array();
 };
 
-Json measured(Context& context, const std::string& how, std::size_t target, const Mesh& mesh,
-              const Texture& texture) {
+Json measured(Context& context, const std::string& how, std::size_t target, const Level& level) {
+    const Mesh& mesh = level.mesh;
     DeviationOptions points;
     points.visible_only = context.known; // what a cast cannot see it need not have
     const Deviation d = deviation(context.truth, mesh, points);
-    const PictureError error = picture_error(mesh, texture, context.views, context.options.samples);
+    const PictureError error = picture_error(level, context.views, context.options.samples);
     Json row = {{"program", context.options.name},
                 {"n", context.n},
                 {"how", how},
                 {"target", target},
                 {"triangles", mesh.triangles.size()},
-                {"textured", !texture.empty()},
+                {"textured", !level.texture.empty()},
                 {"against", context.known ? "the program's mesh" : "the full surface of the cast"},
                 {"sample", context.sample},
                 {"meanError", std::max(d.a_to_b.mean, d.b_to_a.mean)},
@@ -97,40 +97,38 @@ const ReferenceView& fullest(const std::vector<ReferenceView>& views) {
                              [&](const auto& a, const auto& b) { return covered(a) < covered(b); });
 }
 
-void write_picture(const Context& context, const std::string& what, const Mesh& mesh,
-                   const Texture& texture) {
+void write_picture(const Context& context, const std::string& what, const Level& level) {
     if (context.options.pictures.empty()) return;
     const ReferenceView& view = fullest(context.views);
     write_png(context.options.pictures + "/" + context.options.name + "-" + what + ".png",
-              antialiased(lit(rasterise(mesh, texture, view.camera), view), context.options.samples));
+              antialiased(lit(rasterise(level, view.camera), view), context.options.samples));
 }
 
 void add_levels(Context& context, const std::string& file, const std::string& how) {
     const std::vector<Level> levels = read_levels(file);
     if (how == "vertex colours") {
-        measured(context, "full surface", 0, levels[0].mesh, {});
-        write_picture(context, "full", levels[0].mesh, {});
+        measured(context, "full surface", 0, levels[0]);
+        write_picture(context, "full", levels[0]);
     }
     for (const std::size_t target : context.options.targets) {
         const Level* level = level_of(levels, target);
         if (!level)
             throw std::runtime_error(file + " has no level of at most " + std::to_string(target) +
                                      " triangles");
-        measured(context, how, target, level->mesh, level->texture);
+        measured(context, how, target, *level);
         if (how == "textured" && level->texture.empty()) throw std::runtime_error(file + " has no texture");
-        write_picture(context, how.substr(0, how.find(' ')) + "-" + std::to_string(target), level->mesh,
-                      level->texture);
+        write_picture(context, how.substr(0, how.find(' ')) + "-" + std::to_string(target), *level);
     }
 }
 
 void add_simplified(Context& context) {
-    measured(context, "original", 0, context.truth, {});
+    measured(context, "original", 0, Level{context.truth, ""});
     for (const test::SimplifyPeer& peer : test::simplify_peers()) {
         if (!peer.is_default) continue;
         for (const std::size_t target : context.options.targets) {
-            const Mesh mesh = simplified_original(context.truth, peer, target);
-            measured(context, peer.library, target, mesh, {});
-            write_picture(context, peer.library + std::string("-") + std::to_string(target), mesh, {});
+            const Level level{simplified_original(context.truth, peer, target), ""};
+            measured(context, peer.library, target, level);
+            write_picture(context, peer.library + std::string("-") + std::to_string(target), level);
         }
     }
 }

@@ -7,13 +7,14 @@
 
 #include "capture/output_file.h"
 #include "tools/mesh/error_names.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 
-void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", line.c_str()); }
+void say(const std::string& line) { std::fprintf(stderr, "glcast: %s\n", printable(line).c_str()); }
 
 Progress::Progress(const std::string& what) : shown(isatty(STDERR_FILENO)) {
-    if (shown) std::fprintf(stderr, "glcast: %s ...", what.c_str());
+    if (shown) std::fprintf(stderr, "glcast: %s ...", printable(what).c_str());
 }
 
 Progress::~Progress() {

@@ -7,6 +7,7 @@
 #include "tools/cli/command.h"
 #include "tools/deviation/deviation.h"
 #include "tools/io/mesh_io.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 namespace {
@@ -80,7 +81,7 @@ void print_direction(const char* name, const DistanceStats& s, double sample, do
 }
 
 void print_side(const char* name, const std::string& file, const MeshCheck& c) {
-    std::printf("%s  %s: %s\n", name, file.c_str(), summary(c).c_str());
+    std::printf("%s  %s: %s\n", name, printable(file).c_str(), summary(c).c_str());
     std::printf("   volume %.6g, Euler characteristic %ld, %zu component(s), %zu boundary and %zu "
                 "non-manifold edges\n",
                 c.volume, c.euler, c.components, c.boundary_edges, c.non_manifold_edges);

@@ -8,6 +8,7 @@
 #include "tools/io/capture_reader.h"
 #include "tools/io/mesh_io.h"
 #include "tools/progressive/stream.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 namespace {
@@ -18,6 +19,9 @@ struct Options {
     std::string file;
     bool json = false;
 };
+
+/// A name out of the file, or the file's own, for a terminal.
+std::string word(const Json& name) { return printable(name.get<std::string>()); }
 
 Json vector_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -91,15 +95,15 @@ void print_layers(const Json& layers) {
 
 void print_capture(const Json& j) {
     const auto& lo = j["box"]["lo"];
-    std::printf("capture   %s, %ld bytes, complete\n", j["file"].get<std::string>().c_str(),
+    std::printf("capture   %s, %ld bytes, complete\n", word(j["file"]).c_str(),
                 j["bytes"].get<long>());
-    std::printf("program   %s, frame %ld, %s\n", j["program"].get<std::string>().c_str(),
-                j["frame"].get<long>(), j["renderer"].get<std::string>().c_str());
+    std::printf("program   %s, frame %ld, %s\n", word(j["program"]).c_str(),
+                j["frame"].get<long>(), word(j["renderer"]).c_str());
     std::printf("lattice   n = %d, box from (%.6g, %.6g, %.6g), size %.6g, sample %.6g\n", j["n"].get<int>(),
                 lo[0].get<double>(), lo[1].get<double>(), lo[2].get<double>(), j["box"]["size"].get<double>(),
                 j["sample"].get<double>());
-    std::printf("normals   %s; made by glcast %s\n", j["normals"].get<std::string>().c_str(),
-                j["glcastVersion"].get<std::string>().c_str());
+    std::printf("normals   %s; made by glcast %s\n", word(j["normals"]).c_str(),
+                word(j["glcastVersion"]).c_str());
     print_layers(j["layers"]);
     for (const Json& part : j["parts"])
         std::printf("view %-5s %6.2f %% covered, %ld pixels, %ld of them with a normal\n",
@@ -107,12 +111,12 @@ void print_capture(const Json& j) {
                     part["coveredPixels"].get<long>(), part["pixelsWithNormal"].get<long>());
     if (j["notUnderstood"].empty()) std::printf("understood everything that was called in the frame\n");
     for (const auto& [what, count] : j["notUnderstood"].items())
-        std::printf("not understood: %s, %ld times\n", what.c_str(), count.get<long>());
+        std::printf("not understood: %s, %ld times\n", printable(what).c_str(), count.get<long>());
 }
 
 void print_level(const Json& j, const Level& level, const MeshCheck& check) {
     const auto &lo = j["bounds"]["lo"], &hi = j["bounds"]["hi"];
-    std::printf("%s\n", level.name.c_str());
+    std::printf("%s\n", printable(level.name).c_str());
     std::printf("  %s\n", summary(check).c_str());
     std::printf("  %ld vertices%s%s, %ld component%s, Euler characteristic %ld\n", j["vertices"].get<long>(),
                 j["hasNormals"].get<bool>() ? ", normals" : "",
@@ -147,7 +151,7 @@ int info(const Options& options) {
         print_json(json);
         return 0;
     }
-    std::printf("mesh      %s, %ld bytes\n", options.file.c_str(), json["bytes"].get<long>());
+    std::printf("mesh      %s, %ld bytes\n", printable(options.file).c_str(), json["bytes"].get<long>());
     for (std::size_t k = 0; k < levels.size(); ++k) print_level(json["levels"][k], levels[k], checks[k]);
     return 0;
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "tools/progressive/stream.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 namespace {
@@ -40,9 +41,9 @@ int progressive_info(const std::filesystem::path& path, bool json) {
         print_json(object);
         return 0;
     }
-    std::printf("progressive mesh  %s, %ju bytes, %s\n", path.string().c_str(), std::uintmax_t(bytes),
+    std::printf("progressive mesh  %s, %ju bytes, %s\n", printable(path.string()).c_str(), std::uintmax_t(bytes),
                 file.complete ? "complete" : "cut off");
-    std::printf("  name \"%s\"%s%s, %zu vertex splits in %zu blocks\n", file.info.name.c_str(),
+    std::printf("  name \"%s\"%s%s, %zu vertex splits in %zu blocks\n", printable(file.info.name).c_str(),
                 mesh.has_normals() ? ", normals" : "", mesh.has_colours() ? ", colours" : "", mesh.splits(),
                 file.blocks);
     std::printf("  base    %zu triangles, %zu edges\n", mesh.triangles(0), mesh.edges(0));

@@ -80,6 +80,7 @@ std::vector<PageLevel> describe_levels(const std::vector<Level>& levels) {
         PageLevel& one = described.emplace_back();
         one.mesh = &level.mesh;
         one.texture = &level.texture;
+        one.wedges = &level.wedges;
         one.name = level.name.empty() ? "level " + std::to_string(described.size() - 1) : level.name;
         one.glb_bytes = glb_size(level);
         one.error = level.error;

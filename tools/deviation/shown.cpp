@@ -16,23 +16,26 @@ template <class Values> auto mixed(const Values& values, const Triangle& t, cons
     return values[t[0]] * w[0] + values[t[1]] * w[1] + values[t[2]] * w[2];
 }
 
-glm::vec3 vertex_normal(const Mesh& mesh, const Triangle& t, const glm::vec3& weights) {
-    if (!mesh.normals.empty()) return mixed(mesh.normals, t, weights);
+constexpr Triangle corners{0, 1, 2};
+
+glm::vec3 normal_at(const Level& level, std::uint32_t triangle, const glm::vec3& weights) {
+    const Mesh& mesh = level.mesh;
+    const Triangle& t = mesh.triangles[triangle];
+    if (has_normals(mesh, level.wedges))
+        return mixed(corner_normals(mesh, level.wedges, triangle), corners, weights);
     const glm::dvec3& a = mesh.positions[t[0]];
     return unit(glm::vec3(glm::normalize(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a))));
 }
 
 } // namespace
 
-bool has_colours(const Level& level) { return !level.texture.empty() || !level.mesh.colours.empty(); }
+bool has_colours(const Level& level) { return !level.texture.empty() || has_colours(level.mesh, level.wedges); }
 
 Shown shown(const Level& level, std::uint32_t triangle, const glm::dvec3& weights) {
-    const Mesh& mesh = level.mesh;
-    const Triangle& t = mesh.triangles[triangle];
-    const glm::vec3 w(weights), normal = vertex_normal(mesh, t, w);
+    const glm::vec3 w(weights), normal = normal_at(level, triangle, w);
+    if (level.texture.empty() && !has_colours(level)) return {glm::vec3(0), unit(normal)};
     if (level.texture.empty())
-        return {mesh.colours.empty() ? glm::vec3(0) : mixed(mesh.colours, t, w), unit(normal)};
-    constexpr Triangle corners{0, 1, 2};
+        return {mixed(corner_colours(level.mesh, level.wedges, triangle), corners, w), unit(normal)};
     const glm::vec2 at = mixed(level.texture.coordinates[triangle], corners, w);
     const glm::vec4 tangent = mixed(level.texture.tangents[triangle], corners, w);
     const glm::vec3 along(tangent), across = cross(normal, along) * (tangent.w < 0 ? -1.0f : 1.0f);

@@ -10,7 +10,7 @@ struct Shown {
     glm::vec3 colour{0}, normal{0}; ///< display values; unit, as it is lit
 };
 
-/// By the texture where there is one, else by the vertices; `weights` are those of the triangle's corners. A
+/// By the texture where there is one, else by the wedges or the vertices; `weights` are those of the triangle's corners. A
 /// mesh without normals shows those of its triangles; one without colours, black.
 Shown shown(const Level& level, std::uint32_t triangle, const glm::dvec3& weights);
 

@@ -1,19 +1,24 @@
-// The bones of a multi-part OpenEXR file, checked before OpenEXR itself may allocate anything for it.
+// Where the pixels of a capture stand in its file.
 #pragma once
 #include <cstdint>
-#include <filesystem>
+#include <vector>
+
+#include "tools/io/capture_header.h"
 
 namespace glcast {
 
-struct CaptureLayout {
-    int n = 0, parts = 0, format = 0;
-    std::uint64_t file_bytes = 0;
+/// The bytes of a chunk, less its head.
+struct ChunkPlace {
+    std::uint64_t at = 0;
+    std::uint32_t bytes = 0;
 };
 
-/// Walks headers, offset tables and chunk heads. Every part must be ours (`glcast.format`), square, n x n,
-/// with all its chunks complete and the last one ending where the file ends; so no truncation goes unseen,
-/// and n is backed by as many bytes as the best compression needs. Throws std::runtime_error: what is wrong,
-/// without the file's name.
-CaptureLayout check_capture_layout(const std::filesystem::path& path);
+/// The chunks of each part, from the first lines to the last.
+using CaptureLayout = std::vector<std::vector<ChunkPlace>>;
+
+/// Walks the offset tables and the chunk heads. All chunks are there, none overlaps another, and the last one
+/// ends where the file ends; so no truncation goes unseen, and all that is read is no more than the file.
+/// Throws std::runtime_error: what is wrong, without the file's name.
+CaptureLayout read_capture_layout(const InputFile& file, const CaptureHeader& header);
 
 } // namespace glcast

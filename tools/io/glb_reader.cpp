@@ -65,11 +65,13 @@ class GlbReader {
         normals = colours = true;
         TextureReader texture(model);
         textures = &texture;
+        copies = {};
         visited.assign(model.nodes.size(), false);
         for (int node : nodes) add_node(level, node, glm::dmat4(1));
         if (!normals) level.mesh.normals.clear();
+        if (!colours) level.mesh.colours.clear();
+        level.wedges = copies.wedges(level.mesh);
         texture.finish(level);
-        if (!colours && level.texture.empty()) level.mesh.colours.clear();
         return level;
     }
 
@@ -98,7 +100,7 @@ class GlbReader {
         std::vector<std::uint32_t> originals;
         for (std::size_t k = 0; k < elements.count(); ++k)
             originals.push_back(std::uint32_t(std::clamp(elements.get(k, 0), 0.0, double(UINT32_MAX))));
-        if (are_copies(mesh, originals)) join_copies(mesh, originals);
+        if (are_copies(mesh, originals)) copies.join(mesh, originals);
     }
 
     void add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive, const glm::dmat4& m) {
@@ -166,6 +168,7 @@ class GlbReader {
     const Model& model;
     std::vector<bool> visited;
     TextureReader* textures = nullptr; ///< of the level that is read
+    CopyJoiner copies;                 ///< likewise
     bool normals = true, colours = true; ///< every primitive of the level has them
 };
 

@@ -113,12 +113,13 @@ void TextureReader::finish(Level& level) {
     if (tangents && normal.index >= 0 && normal.texCoord == 0) texture.normal = picture(normal.index);
     if (texture.normal.width != texture.colour.width || texture.normal.height != texture.colour.height)
         flatten(texture.normal, texture.colour);
-    const bool have_normals = level.mesh.normals.size() == level.mesh.positions.size();
-    if (!tangents)
-        for (std::size_t t = 0; t < texture.tangents.size(); ++t)
-            for (int k = 0; k < 3; ++k)
-                texture.tangents[t][k] = some_tangent(
-                    have_normals ? level.mesh.normals[level.mesh.triangles[t][k]] : glm::vec3(0, 0, 1));
+    const bool have_normals = has_normals(level.mesh, level.wedges);
+    for (std::size_t t = 0; t < texture.tangents.size() && !tangents; ++t) {
+        std::array<glm::vec3, 3> normals;
+        normals.fill(glm::vec3(0, 0, 1));
+        if (have_normals) normals = corner_normals(level.mesh, level.wedges, t);
+        for (int k = 0; k < 3; ++k) texture.tangents[t][k] = some_tangent(normals[k]);
+    }
     level.texture = std::move(texture);
     take_colours(level);
 }

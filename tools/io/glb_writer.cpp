@@ -14,7 +14,7 @@
 #include "tools/io/glb_extras.h"
 #include "tools/io/mesh_format.h"
 #include "tools/io/meshopt.h"
-#include "tools/io/seams.h"
+#include "tools/mesh/corner_split.h"
 #include "tools/picture/png.h"
 
 namespace glcast::format {
@@ -75,16 +75,16 @@ class GlbBuilder {
                             data.size(), normalized);
     }
     void add_bounds(int accessor, const glm::dvec3& lo, const glm::dvec3& hi);
-    int add_positions(const Mesh& mesh, const SeamSplit& split);
-    int add_normals(const Mesh& mesh, const SeamSplit& split);
-    int add_colours(const Mesh& mesh, const SeamSplit& split);
-    int add_coordinates(const SeamSplit& split);
-    int add_tangents(const SeamSplit& split);
+    int add_positions(const Mesh& mesh, const CornerSplit& split);
+    int add_normals(const Mesh& mesh, const CornerSplit& split);
+    int add_colours(const Mesh& mesh, const CornerSplit& split);
+    int add_coordinates(const CornerSplit& split);
+    int add_tangents(const CornerSplit& split);
     int add_indices(std::span<const std::uint32_t> indices, std::size_t vertices, int target);
     int add_image(const std::string& png, const std::string& name);
     int plain_material();
     int textured_material(const std::string& name, const Pngs& pngs);
-    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split,
+    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const CornerSplit& split,
                                      const Pngs& pngs);
 
     glm::dvec3 origin;
@@ -137,7 +137,7 @@ void GlbBuilder::add_bounds(int accessor, const glm::dvec3& lo, const glm::dvec3
     model.accessors[accessor].maxValues = {hi.x, hi.y, hi.z};
 }
 
-int GlbBuilder::add_positions(const Mesh& mesh, const SeamSplit& split) {
+int GlbBuilder::add_positions(const Mesh& mesh, const CornerSplit& split) {
     const std::size_t count = split.vertices(mesh);
     glm::dvec3 lo(INFINITY), hi(-INFINITY);
     int accessor;
@@ -164,29 +164,29 @@ int GlbBuilder::add_positions(const Mesh& mesh, const SeamSplit& split) {
     return accessor;
 }
 
-int GlbBuilder::add_normals(const Mesh& mesh, const SeamSplit& split) {
+int GlbBuilder::add_normals(const Mesh& mesh, const CornerSplit& split) {
     const std::size_t count = split.vertices(mesh);
     if (grid) {
         std::vector<std::array<std::int8_t, 4>> data;
         data.reserve(count);
         for (std::size_t v = 0; v < count; ++v) {
-            const glm::vec3& n = mesh.normals[split.original(mesh, v)];
+            const glm::vec3& n = split.normal(mesh, v);
             data.push_back({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z), 0});
         }
         return add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_BYTE, true);
     }
     std::vector<glm::vec3> data;
     data.reserve(count);
-    for (std::size_t v = 0; v < count; ++v) data.push_back(mesh.normals[split.original(mesh, v)]);
+    for (std::size_t v = 0; v < count; ++v) data.push_back(split.normal(mesh, v));
     return add_attribute(data, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
 }
 
 /// COLOR_0 is linear light in glTF, what the program drew is for display; 16 bits keep dark tones apart.
-int GlbBuilder::add_colours(const Mesh& mesh, const SeamSplit& split) {
+int GlbBuilder::add_colours(const Mesh& mesh, const CornerSplit& split) {
     std::vector<std::array<std::uint16_t, 4>> data;
     data.reserve(split.vertices(mesh));
     for (std::size_t v = 0; v < split.vertices(mesh); ++v) {
-        const glm::vec3& c = mesh.colours[split.original(mesh, v)];
+        const glm::vec3& c = split.colour(mesh, v);
         const auto linear = [&](int k) {
             return unsigned_short(to_linear(grid ? display_byte(c[k]) : c[k]));
         };
@@ -195,7 +195,7 @@ int GlbBuilder::add_colours(const Mesh& mesh, const SeamSplit& split) {
     return add_attribute(data, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
-int GlbBuilder::add_coordinates(const SeamSplit& split) {
+int GlbBuilder::add_coordinates(const CornerSplit& split) {
     if (!grid) return add_attribute(split.coordinates, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
     std::vector<std::array<std::uint16_t, 2>> data;
     data.reserve(split.coordinates.size());
@@ -204,7 +204,7 @@ int GlbBuilder::add_coordinates(const SeamSplit& split) {
     return add_attribute(data, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
-int GlbBuilder::add_tangents(const SeamSplit& split) {
+int GlbBuilder::add_tangents(const CornerSplit& split) {
     if (!grid) return add_attribute(split.tangents, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
     std::vector<std::array<std::int8_t, 4>> data;
     data.reserve(split.tangents.size());
@@ -265,14 +265,16 @@ int GlbBuilder::textured_material(const std::string& name, const Pngs& pngs) {
 
 /// A textured one has no COLOR_0: viewers would multiply the texture by it. `mesh`: the level's vertices, in
 /// whatever order the split is.
-tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mesh, const SeamSplit& split,
+tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mesh, const CornerSplit& split,
                                              const Pngs& pngs) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_positions(mesh, split);
-    if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = add_normals(mesh, split);
+    if (!mesh.normals.empty() || !split.normals.empty())
+        primitive.attributes["NORMAL"] = add_normals(mesh, split);
     if (level.texture.empty()) {
-        if (!mesh.colours.empty()) primitive.attributes["COLOR_0"] = add_colours(mesh, split);
+        if (!mesh.colours.empty() || !split.colours.empty())
+            primitive.attributes["COLOR_0"] = add_colours(mesh, split);
         primitive.material = plain_material();
     } else {
         primitive.attributes["TEXCOORD_0"] = add_coordinates(split);
@@ -284,8 +286,16 @@ tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mes
     return primitive;
 }
 
+/// A texture hides the colours.
+Wedges shown_wedges(const Level& level) {
+    Wedges wedges = level.wedges;
+    if (!level.texture.empty()) wedges.colours.clear();
+    if (wedges.normals.empty() && wedges.colours.empty()) wedges.corners.clear();
+    return wedges;
+}
+
 void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
-    SeamSplit split = split_along_seams(level);
+    CornerSplit split = split_corners(level.mesh, level.texture, shown_wedges(level));
     Mesh moved;
     if (reorder) moved = reorder_for_drawing(level.mesh, split);
     tinygltf::Mesh mesh;

@@ -95,7 +95,8 @@ std::string read_file(const std::filesystem::path& path) {
 
 /// What must be true of a mesh from anywhere: corners that exist, finite positions, unit normals, colours in
 /// 0..1.
-void tidy(Mesh& mesh) {
+void tidy(Level& level) {
+    Mesh& mesh = level.mesh;
     if (mesh.triangles.empty()) format::refuse("holds no triangles");
     const std::size_t vertices = mesh.positions.size();
     for (const Triangle& t : mesh.triangles)
@@ -108,12 +109,15 @@ void tidy(Mesh& mesh) {
             format::refuse("a position is not finite");
     if (mesh.normals.size() != vertices) mesh.normals.clear();
     if (mesh.colours.size() != vertices) mesh.colours.clear();
-    for (glm::vec3& n : mesh.normals) {
-        const float length = glm::length(n);
-        n = std::isfinite(length) && length > 0 ? n / length : glm::vec3(0, 0, 1);
-    }
-    for (glm::vec3& c : mesh.colours)
-        for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
+    if (!fits(mesh, level.wedges)) level.wedges = {};
+    for (auto* normals : {&mesh.normals, &level.wedges.normals})
+        for (glm::vec3& n : *normals) {
+            const float length = glm::length(n);
+            n = std::isfinite(length) && length > 0 ? n / length : glm::vec3(0, 0, 1);
+        }
+    for (auto* colours : {&mesh.colours, &level.wedges.colours})
+        for (glm::vec3& c : *colours)
+            for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
 }
 
 std::filesystem::path numbered(const std::filesystem::path& path, std::size_t level) {
@@ -140,7 +144,7 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
         std::vector<Level> levels = f.read(read_file(path));
-        for (Level& level : levels) tidy(level.mesh);
+        for (Level& level : levels) tidy(level);
         return levels;
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());

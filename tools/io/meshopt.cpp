@@ -165,7 +165,7 @@ std::string decoded(std::string_view codes, const Json& how) {
 
 } // namespace
 
-Mesh reorder_for_drawing(const Mesh& mesh, SeamSplit& split) {
+Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split) {
     const std::size_t own = mesh.positions.size(), all = split.vertices(mesh);
     auto* corners = split.triangles.data()->data();
     meshopt_optimizeVertexCache(corners, corners, split.triangles.size() * 3, all);
@@ -183,13 +183,14 @@ Mesh reorder_for_drawing(const Mesh& mesh, SeamSplit& split) {
 
     for (Triangle& t : split.triangles)
         for (std::uint32_t& v : t) v = becomes[v];
-    const SeamSplit before = split;
+    const CornerSplit before = split;
     for (std::size_t v = own; v < all; ++v)
         split.originals[v - own] = becomes[before.originals[order[v] - own]];
-    for (std::size_t v = 0; v < split.coordinates.size(); ++v) {
-        split.coordinates[v] = before.coordinates[order[v]];
-        split.tangents[v] = before.tangents[order[v]];
-    }
+    const auto move = [&](auto& values, const auto& from) {
+        for (std::size_t v = 0; v < values.size(); ++v) values[v] = from[order[v]];
+    };
+    move(split.normals, before.normals), move(split.colours, before.colours);
+    move(split.coordinates, before.coordinates), move(split.tangents, before.tangents);
     Mesh moved;
     for (std::size_t v = 0; v < own; ++v) {
         moved.positions.push_back(mesh.positions[order[v]]);

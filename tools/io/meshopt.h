@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "tools/io/glb_container.h"
-#include "tools/io/seams.h"
+#include "tools/mesh/corner_split.h"
 
 namespace glcast::format {
 
@@ -13,7 +13,7 @@ inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 /// Triangles in an order that uses each vertex soon again, vertices in the order of their use: faster to
 /// draw, and smaller when compressed. The vertices of the mesh stay before the copies. Returns the mesh's
 /// vertices (and no triangles) in their new order.
-Mesh reorder_for_drawing(const Mesh& mesh, SeamSplit& split);
+Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split);
 
 /// The same .glb with its vertices and indices compressed, and no uncompressed copy beside them: the
 /// extension is required.

@@ -1,10 +1,11 @@
 // Wavefront .obj: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f; written with an .mtl
 // where there is a texture.
+#include <algorithm>
 #include <cmath>
 
 #include "tools/io/mesh_format.h"
-#include "tools/io/seams.h"
 #include "tools/io/text_cursor.h"
+#include "tools/mesh/corner_split.h"
 
 namespace glcast::format {
 namespace {
@@ -13,6 +14,8 @@ struct ObjReader {
     TextCursor cursor;
     Mesh mesh;
     std::vector<glm::vec3> vn;          ///< as in the file
+    CornerValues corner_normals;        ///< by triangle, while every corner has one
+    std::vector<std::uint32_t> of_face; ///< scratch: the vn of its corners
     std::vector<glm::vec3> normal_sums; ///< per vertex, of the vn its faces give it
     std::vector<std::uint32_t> corners; ///< scratch
     std::size_t coloured = 0, with_normal = 0;
@@ -49,7 +52,7 @@ struct ObjReader {
     }
 
     void face(std::string_view line) {
-        corners.clear();
+        corners.clear(), of_face.clear();
         for (std::string_view w = TextCursor::word(line); !w.empty(); w = TextCursor::word(line)) {
             const std::size_t slash = w.find('/'), second = slash == w.npos ? w.npos : w.find('/', slash + 1);
             const std::size_t v = index(w.substr(0, slash), mesh.positions.size());
@@ -61,9 +64,13 @@ struct ObjReader {
                 normal_sums.resize(mesh.positions.size(), glm::vec3(0));
             normal_sums[v] += vn[n];
             ++with_normal;
+            of_face.push_back(static_cast<std::uint32_t>(n));
         }
         if (corners.size() < 3) cursor.fail("a face has fewer than three corners");
+        const bool whole = corner_normals.size() == mesh.triangles.size() && of_face.size() == corners.size();
         add_fan(mesh, corners);
+        for (std::size_t k = 2; k < of_face.size() && whole; ++k)
+            corner_normals.push_back({vn[of_face[0]], vn[of_face[k - 1]], vn[of_face[k]]});
     }
 
     void read() {
@@ -78,6 +85,17 @@ struct ObjReader {
         if (with_normal > 0 && normal_sums.size() == mesh.positions.size())
             mesh.normals = std::move(normal_sums);
     }
+
+    /// Of the mesh once it is whole and all its corners are vertices that there are.
+    Wedges wedges(Mesh& whole) const {
+        const auto there = [&](const Triangle& t) {
+            return std::max({t[0], t[1], t[2]}) < whole.positions.size();
+        };
+        if (corner_normals.empty() || corner_normals.size() != whole.triangles.size() ||
+            !std::ranges::all_of(whole.triangles, there))
+            return {};
+        return take_corner_values(whole, corner_normals, {});
+    }
 };
 
 } // namespace
@@ -86,7 +104,9 @@ std::vector<Level> read_obj(std::string_view bytes) {
     ObjReader reader(bytes);
     reader.read();
     if (reader.mesh.positions.empty()) refuse("holds no vertices");
-    return one_level(std::move(reader.mesh));
+    std::vector<Level> levels = one_level(std::move(reader.mesh));
+    levels[0].wedges = reader.wedges(levels[0].mesh);
+    return levels;
 }
 
 namespace {
@@ -102,41 +122,43 @@ bool write_mtl(FileSet& files, const std::filesystem::path& path, const Texture&
     return out.flush();
 }
 
-void add_vertices(Gather& out, const Mesh& mesh, bool with_colours) {
+/// `vn`: of the vertices or, where corners have their own, of the wedges.
+void add_vertices(Gather& out, const Mesh& mesh, const std::vector<glm::vec3>& normals, bool with_colours) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         out << "v";
         for (int k = 0; k < 3; ++k) out << ' ' << mesh.positions[v][k];
         for (int k = 0; k < 3 && with_colours; ++k) out << ' ' << double(mesh.colours[v][k]);
         out << '\n';
     }
-    for (const glm::vec3& n : mesh.normals)
+    for (const glm::vec3& n : normals)
         out << "vn " << double(n.x) << ' ' << double(n.y) << ' ' << double(n.z) << '\n';
 }
 
 } // namespace
 
-/// Positions stay one a vertex: along a seam only texture coordinates differ.
+/// Positions stay one a vertex: along a seam only texture coordinates differ, at a crease only normals.
 bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level) {
     const Mesh& mesh = level.mesh;
-    const bool textured = !level.texture.empty();
+    const bool textured = !level.texture.empty(), own = !level.wedges.normals.empty();
+    const std::vector<glm::vec3>& normals = own ? level.wedges.normals : mesh.normals;
     Gather out(files.mesh(path));
     out << "# glcast " GLCAST_VERSION "\n";
     if (textured) {
         if (!write_mtl(files, path, level.texture)) return false;
         out << "mtllib " << path.stem().string() << ".mtl\n";
     }
-    add_vertices(out, mesh, !mesh.colours.empty() && !textured);
-    const SeamSplit split = split_along_seams(level);
+    add_vertices(out, mesh, normals, !mesh.colours.empty() && !textured);
+    const CornerSplit split = split_corners(mesh, level.texture, {});
     for (const glm::vec2& at : split.coordinates) out << "vt " << double(at.x) << ' ' << 1 - double(at.y) << '\n';
     if (textured) out << "usemtl as_drawn\n";
-    for (const Triangle& t : split.triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         out << 'f';
-        for (const std::uint32_t corner : t) {
-            const std::size_t v = split.original(mesh, corner) + 1;
-            out << ' ' << v;
-            if (textured || !mesh.normals.empty()) out << '/';
-            if (textured) out << std::size_t(corner) + 1;
-            if (!mesh.normals.empty()) out << '/' << v;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.triangles[t][k], normal = own ? level.wedges.corners[t][k] : v;
+            out << ' ' << std::size_t(v) + 1;
+            if (textured || !normals.empty()) out << '/';
+            if (textured) out << std::size_t(split.triangles[t][k]) + 1;
+            if (!normals.empty()) out << '/' << std::size_t(normal) + 1;
         }
         out << '\n';
     }

@@ -145,6 +145,9 @@ std::size_t list_length(Values& values, Type type) {
     return static_cast<std::size_t>(length);
 }
 
+// Normals and colours of a face's corners: the second as MeshLab has it, the first ours in the same manner.
+constexpr std::string_view wedge_normals = "normal", wedge_colours = "color";
+
 /// Where a property of a vertex goes: position 0..2, normal 3..5, colour 6..8; -1 nowhere.
 int vertex_slot(std::string_view name) {
     constexpr std::string_view names[] = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
@@ -184,21 +187,59 @@ void read_vertices(Values& values, const Element& element, Mesh& mesh) {
     }
 }
 
-void read_faces(Values& values, const Element& element, Mesh& mesh) {
+/// Three numbers for each corner of a face, as a list.
+struct CornerList {
+    std::string_view name;
+    CornerValues& values; ///< by triangle, while every face has them
+    std::vector<double> face{};
+
+    bool takes(const Property& p) const { return p.list && p.name == name; }
+    /// To the triangles of the face, a fan as add_fan makes it, which begin at number `first`.
+    void add(std::size_t first, std::size_t corners) {
+        if (values.size() == first && face.size() == 3 * corners)
+            for (std::size_t k = 2; k < corners; ++k) values.push_back({at(0), at(k - 1), at(k)});
+        face.clear();
+    }
+
+  private:
+    glm::vec3 at(std::size_t corner) const {
+        return {face[3 * corner], face[3 * corner + 1], face[3 * corner + 2]};
+    }
+};
+
+std::uint32_t corner_from(double value) {
+    if (!(value >= 0) || value > UINT32_MAX || value != std::floor(value)) refuse("a face has an impossible corner");
+    return static_cast<std::uint32_t>(value);
+}
+
+void read_faces(Values& values, const Element& element, Mesh& mesh, CornerValues& normals, CornerValues& colours) {
     std::vector<std::uint32_t> corners;
-    for (std::size_t f = 0; f < element.count; ++f)
+    CornerList lists[] = {{wedge_normals, normals}, {wedge_colours, colours}};
+    for (std::size_t f = 0; f < element.count; ++f) {
+        corners.clear();
         for (const Property& p : element.properties) {
             const bool wanted = p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
-            corners.clear();
             for (std::size_t count = p.list ? list_length(values, *p.list) : 1; count > 0; --count) {
                 const double value = values.next(p.type);
-                if (!wanted) continue;
-                if (!(value >= 0) || value > UINT32_MAX || value != std::floor(value))
-                    refuse("a face has an impossible corner");
-                corners.push_back(static_cast<std::uint32_t>(value));
+                if (wanted) corners.push_back(corner_from(value));
+                for (CornerList& list : lists)
+                    if (list.takes(p)) list.face.push_back(value / colour_scale(p.type));
             }
-            add_fan(mesh, corners);
         }
+        const std::size_t first = mesh.triangles.size();
+        add_fan(mesh, corners);
+        for (CornerList& list : lists) list.add(first, corners.size());
+    }
+}
+
+/// Of the mesh once it is whole.
+Wedges wedges_from(Mesh& mesh, CornerValues& normals, CornerValues& colours) {
+    for (CornerValues* values : {&normals, &colours})
+        if (values->size() != mesh.triangles.size()) values->clear();
+    for (const Triangle& t : mesh.triangles)
+        if (std::max({t[0], t[1], t[2]}) >= mesh.positions.size()) return {}; // read_levels says so
+    if (normals.empty() && colours.empty()) return {};
+    return take_corner_values(mesh, normals, colours);
 }
 
 void skip(Values& values, const Element& element) {
@@ -214,27 +255,42 @@ std::vector<Level> read_ply(std::string_view bytes) {
     TextCursor cursor(bytes);
     const Header header = read_header(cursor);
     Values values(cursor.remaining(), header.encoding);
-    Mesh mesh;
+    std::vector<Level> levels = one_level({});
+    Mesh& mesh = levels[0].mesh;
+    CornerValues normals, colours;
     for (const Element& element : header.elements) {
         if (element.properties.empty()) continue;
         if (element.count > values.left()) refuse("the file is truncated, or its counts are wrong");
         if (element.name == "vertex")
             read_vertices(values, element, mesh);
         else if (element.name == "face")
-            read_faces(values, element, mesh);
+            read_faces(values, element, mesh, normals, colours);
         else
             skip(values, element);
     }
-    return one_level(std::move(mesh));
+    levels[0].wedges = wedges_from(mesh, normals, colours);
+    return levels;
 }
 
-/// Texture coordinates belong to corners, as MeshLab writes them: the mesh stays as it is.
+namespace {
+
+std::array<glm::vec3, 3> in_bytes(std::array<glm::vec3, 3> colours) {
+    for (glm::vec3& c : colours)
+        for (int k = 0; k < 3; ++k) c[k] = float(std::lround(c[k] * 255)) / 255;
+    return colours;
+}
+
+} // namespace
+
+/// Texture coordinates, and normals and colours of wedges, belong to corners, as MeshLab writes them: the mesh stays
+/// as it is.
 bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level) {
     const Mesh& mesh = level.mesh;
     const bool textured = !level.texture.empty();
     PictureNames names;
     Gather out(files.mesh(path));
     if (textured && !write_pictures(files, path, level.texture, false, names)) return false;
+    const Wedges& wedges = level.wedges;
     const bool wide = needs_doubles(mesh), normals = !mesh.normals.empty(), colours = !mesh.colours.empty();
     out << "ply\nformat binary_little_endian 1.0\ncomment glcast " GLCAST_VERSION "\n";
     if (textured) out << "comment TextureFile " << names.colour << '\n';
@@ -245,6 +301,8 @@ bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& l
     if (colours) out << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     out << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\n";
     if (textured) out << "property list uchar float texcoord\n";
+    if (!wedges.normals.empty()) out << "property list uchar float " << wedge_normals << '\n';
+    if (!wedges.colours.empty()) out << "property list uchar float " << wedge_colours << '\n';
     out << "end_header\n";
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (wide)
@@ -257,9 +315,12 @@ bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& l
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         out << '\3', out.bytes(mesh.triangles[t]);
-        if (!textured) continue;
-        out << '\6';
-        for (const glm::vec2& at : level.texture.coordinates[t]) out.bytes(glm::vec2(at.x, 1 - at.y));
+        if (textured) {
+            out << '\6';
+            for (const glm::vec2& at : level.texture.coordinates[t]) out.bytes(glm::vec2(at.x, 1 - at.y));
+        }
+        if (!wedges.normals.empty()) out << '\11', out.bytes(corner_normals(mesh, wedges, t));
+        if (!wedges.colours.empty()) out << '\11', out.bytes(in_bytes(corner_colours(mesh, wedges, t)));
     }
     return out.flush();
 }

@@ -119,10 +119,11 @@ std::array<std::int8_t, 4> tangent_bytes(const glm::vec4& t) {
 void round_level(Level& level, const PositionGrid& grid) {
     const std::vector<GridPoint> points = on_grid(level.mesh, grid);
     for (std::size_t v = 0; v < points.size(); ++v) level.mesh.positions[v] = position(points[v], grid);
-    for (glm::vec3& n : level.mesh.normals)
-        n = direction({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z)}, n);
-    for (glm::vec3& c : level.mesh.colours)
-        for (int k = 0; k < 3; ++k) c[k] = display_byte(c[k]);
+    for (auto* normals : {&level.mesh.normals, &level.wedges.normals})
+        for (glm::vec3& n : *normals) n = direction({signed_byte(n.x), signed_byte(n.y), signed_byte(n.z)}, n);
+    for (auto* colours : {&level.mesh.colours, &level.wedges.colours})
+        for (glm::vec3& c : *colours)
+            for (int k = 0; k < 3; ++k) c[k] = display_byte(c[k]);
     for (auto& corners : level.texture.coordinates)
         for (glm::vec2& at : corners) at = glm::vec2(unsigned_short(at.x), unsigned_short(at.y)) / 65535.0f;
     for (auto& corners : level.texture.tangents)

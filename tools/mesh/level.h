@@ -4,6 +4,7 @@
 
 #include "tools/mesh/mesh.h"
 #include "tools/mesh/texture.h"
+#include "tools/mesh/wedges.h"
 
 namespace glcast {
 
@@ -21,7 +22,8 @@ struct Level {
     std::string name; ///< "level 0", ...
     LevelError error{}; ///< zero for level 0, but for its unsupported area
     double sample = 0; ///< lattice spacing of the capture it was made from, model units; 0 when unknown
-    Texture texture{}; ///< empty: colours and normals of the vertices are all there is
+    Texture texture{}; ///< empty: colours and normals of vertices or wedges are all there is
+    Wedges wedges{};   ///< empty: a normal and a colour a vertex are all there is
 };
 
 } // namespace glcast

@@ -73,37 +73,41 @@ glm::vec3 unit(const glm::vec3& v) {
     return length > 0 ? v / length : glm::vec3(0);
 }
 
-bool fits(const Picture& picture) {
+bool is_whole(const Picture& picture) {
     return picture.rgb.empty() ||
            (picture.width > 0 && picture.height > 0 &&
             picture.rgb.size() == std::size_t(picture.width) * std::size_t(picture.height) * 3);
 }
 
-void check(const Mesh& mesh, const Texture& texture) {
+void check(const Mesh& mesh, const Texture& texture, const Wedges& wedges) {
+    if (!fits(mesh, wedges)) throw std::runtime_error("cannot draw: the wedges are not those of this mesh");
     if (texture.empty()) return;
-    if (texture.coordinates.size() != mesh.triangles.size() || !fits(texture.colour) || !fits(texture.normal))
+    if (texture.coordinates.size() != mesh.triangles.size() || !is_whole(texture.colour) ||
+        !is_whole(texture.normal))
         throw std::runtime_error("cannot draw: the texture is not one of this mesh");
     if (!texture.normal.rgb.empty() &&
-        (texture.tangents.size() != mesh.triangles.size() || mesh.normals.empty()))
+        (texture.tangents.size() != mesh.triangles.size() || !has_normals(mesh, wedges)))
         throw std::runtime_error("cannot draw: a normal map needs normals and tangents");
 }
 
 class Shader {
   public:
-    Shader(const Mesh& mesh, const Texture& texture) : mesh(mesh), texture(texture) {}
+    Shader(const Mesh& mesh, const Texture& texture, const Wedges& wedges)
+        : mesh(mesh), texture(texture), wedges(wedges) {}
 
     glm::vec3 colour(const Fragment& at) const {
         if (!texture.empty() && !texture.colour.rgb.empty()) return sample(texture.colour, coordinates(at));
-        return mesh.colours.empty() ? plain_colour : mix(corners(mesh.colours, at), at.b, at.c);
+        if (!has_colours(mesh, wedges)) return plain_colour;
+        return mix(corner_colours(mesh, wedges, at.triangle), at.b, at.c);
     }
 
     glm::vec3 normal(const Fragment& at) const {
-        if (mesh.normals.empty()) return face(at);
-        const glm::vec3 smooth = unit(mix(corners(mesh.normals, at), at.b, at.c));
+        if (!has_normals(mesh, wedges)) return face(at);
+        const std::array<glm::vec3, 3> normals = corner_normals(mesh, wedges, at.triangle);
+        const glm::vec3 smooth = unit(mix(normals, at.b, at.c));
         if (texture.empty() || texture.normal.rgb.empty()) return smooth;
         // As glTF's sample viewer and three.js: tangent and bitangent of the corners, mixed, then unit again.
         const std::array<glm::vec4, 3>& own = texture.tangents[at.triangle];
-        const std::array<glm::vec3, 3> normals = corners(mesh.normals, at);
         std::array<glm::vec3, 3> tangents, bitangents;
         for (std::size_t k = 0; k < 3; ++k) {
             tangents[k] = glm::vec3(own[k]);
@@ -118,10 +122,6 @@ class Shader {
     glm::vec2 coordinates(const Fragment& at) const {
         return mix(texture.coordinates[at.triangle], at.b, at.c);
     }
-    std::array<glm::vec3, 3> corners(const std::vector<glm::vec3>& of, const Fragment& at) const {
-        const Triangle& t = mesh.triangles[at.triangle];
-        return {of[t[0]], of[t[1]], of[t[2]]};
-    }
     glm::vec3 face(const Fragment& at) const {
         const Triangle& t = mesh.triangles[at.triangle];
         const glm::dvec3& a = mesh.positions[t[0]];
@@ -132,12 +132,13 @@ class Shader {
 
     const Mesh& mesh;
     const Texture& texture;
+    const Wedges& wedges;
 };
 
 } // namespace
 
-SeenImage rasterise(const Mesh& mesh, const Texture& texture, const OrthoView& view) {
-    check(mesh, texture);
+SeenImage rasterise(const Mesh& mesh, const Texture& texture, const Wedges& wedges, const OrthoView& view) {
+    check(mesh, texture, wedges);
     const std::size_t count = std::size_t(view.width) * std::size_t(view.height);
     std::vector<glm::dvec3> projected;
     projected.reserve(mesh.positions.size());
@@ -149,7 +150,7 @@ SeenImage rasterise(const Mesh& mesh, const Texture& texture, const OrthoView& v
     }
     SeenImage image{view.width, view.height, std::vector<char>(count), std::vector<glm::vec3>(count),
                     std::vector<glm::vec3>(count)};
-    const Shader shader(mesh, texture);
+    const Shader shader(mesh, texture, wedges);
     for (std::size_t p = 0; p < count; ++p) {
         if (pixels[p].triangle == nothing) continue;
         image.covered[p] = 1;

@@ -25,10 +25,16 @@ struct SeenImage {
     std::vector<glm::vec3> normal; ///< model space, unit; 0 where the mesh has none
 };
 
-/// The nearest surface of each pixel, either side of a triangle. Normals are those of the vertices, turned by
+/// The nearest surface of each pixel, either side of a triangle. Normals are those of wedges or vertices, turned by
 /// the normal map where there is one, else those of the triangles. Meshes without colours are grey.
 /// Coordinates of the texture are read bilinearly, without smaller copies. Throws std::runtime_error where
-/// texture and mesh do not go together.
-SeenImage rasterise(const Mesh& mesh, const Texture& texture, const OrthoView& view);
+/// texture or wedges and mesh do not go together.
+SeenImage rasterise(const Mesh& mesh, const Texture& texture, const Wedges& wedges, const OrthoView& view);
+inline SeenImage rasterise(const Level& level, const OrthoView& view) {
+    return rasterise(level.mesh, level.texture, level.wedges, view);
+}
+inline SeenImage rasterise(const Mesh& mesh, const Texture& texture, const OrthoView& view) {
+    return rasterise(mesh, texture, {}, view);
+}
 
 } // namespace glcast

@@ -10,6 +10,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 
+#include "tools/mesh/corner_split.h"
 #include "tools/render/label.h"
 #include "tools/render/lighting.h"
 #include "tools/render/osmesa.h"
@@ -68,31 +69,34 @@ struct Drawable {
     std::vector<std::uint32_t> indices;
 };
 
-Drawable prepare(const Mesh& mesh, const Sphere& sphere) {
+Drawable prepare(const Mesh& mesh, const Wedges& wedges, const Sphere& sphere) {
     const auto fitted = [&](std::uint32_t v) {
         return glm::vec3((mesh.positions[v] - sphere.centre) / sphere.radius);
     };
-    const auto colour = [&](std::uint32_t v) {
-        return mesh.colours.empty() ? plain_colour : mesh.colours[v];
-    };
+    const bool coloured = has_colours(mesh, wedges);
     Drawable out;
-    if (!mesh.normals.empty()) {
-        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-            out.positions.push_back(fitted(v));
-            out.colours.push_back(colour(v));
+    if (has_normals(mesh, wedges)) {
+        const CornerSplit split = split_corners(mesh, {}, wedges);
+        for (std::size_t v = 0; v < split.vertices(mesh); ++v) {
+            out.positions.push_back(fitted(split.original(mesh, v)));
+            out.colours.push_back(coloured ? split.colour(mesh, v) : plain_colour);
+            out.normals.push_back(split.normal(mesh, v));
         }
-        out.normals = mesh.normals;
-        for (const Triangle& t : mesh.triangles) out.indices.insert(out.indices.end(), t.begin(), t.end());
+        for (const Triangle& t : split.triangles) out.indices.insert(out.indices.end(), t.begin(), t.end());
         return out;
     }
-    for (const Triangle& t : mesh.triangles) {
+    for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
+        const Triangle& t = mesh.triangles[number];
+        std::array<glm::vec3, 3> colours;
+        colours.fill(plain_colour);
+        if (coloured) colours = corner_colours(mesh, wedges, number);
+        out.colours.insert(out.colours.end(), colours.begin(), colours.end());
         const glm::dvec3& a = mesh.positions[t[0]];
         const glm::dvec3 normal = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
         const double length = glm::length(normal);
         for (const std::uint32_t v : t) {
             out.indices.push_back(std::uint32_t(out.positions.size()));
             out.positions.push_back(fitted(v));
-            out.colours.push_back(colour(v));
             out.normals.emplace_back(length > 0 ? normal / length : normal);
         }
     }
@@ -207,10 +211,10 @@ void draw_tiles(Picture& sheet, const Layout& layout, std::size_t row, const Sph
     }
 }
 
-void draw_by_osmesa(Picture& sheet, const Layout& layout, std::size_t row, const Mesh& of,
+void draw_by_osmesa(Picture& sheet, const Layout& layout, std::size_t row, const Level& of,
                     const Sphere& sphere) {
     const int factor = factor_for(layout.size), pixels = layout.size * factor;
-    const Drawable mesh = prepare(of, sphere);
+    const Drawable mesh = prepare(of.mesh, of.wedges, sphere);
     Osmesa osmesa(pixels);
     set_up_state(osmesa.gl(), mesh);
     for (std::size_t i = 0; i < sheet_views.size(); ++i) {
@@ -223,10 +227,10 @@ void draw_by_osmesa(Picture& sheet, const Layout& layout, std::size_t row, const
 void draw_row(Picture& sheet, const Layout& layout, std::size_t row, const Level& level,
               const Sphere& sphere) {
     draw_caption(sheet, layout, row, level_caption(level));
-    if (level.texture.empty()) return draw_by_osmesa(sheet, layout, row, level.mesh, sphere);
+    if (level.texture.empty()) return draw_by_osmesa(sheet, layout, row, level, sphere);
     draw_tiles(
         sheet, layout, row, sphere, sheet_views.size(), supersampling,
-        [&](std::size_t, const OrthoView& view) { return rasterise(level.mesh, level.texture, view); });
+        [&](std::size_t, const OrthoView& view) { return rasterise(level, view); });
 }
 
 const ViewImage& outer_view(std::span<const ViewImage> images, std::size_t column) {
@@ -276,7 +280,7 @@ Picture contact_sheet(std::span<const Level> levels, int size, const CapturedVie
 Picture picture(const Mesh& mesh, const glm::dvec3& direction, int size) {
     const int factor = factor_for(check_size(size));
     if (!(glm::length(direction) > 0)) throw std::runtime_error("cannot draw: no direction to look in");
-    const Drawable drawable = prepare(mesh, bounds(mesh));
+    const Drawable drawable = prepare(mesh, {}, bounds(mesh));
     Osmesa osmesa(size * factor);
     set_up_state(osmesa.gl(), drawable);
     draw(osmesa.gl(), drawable, direction, size * factor);
@@ -285,13 +289,13 @@ Picture picture(const Mesh& mesh, const glm::dvec3& direction, int size) {
     return out;
 }
 
-Picture picture(const Mesh& mesh, const Texture& texture, const glm::dvec3& direction, int size) {
+Picture picture(const Level& level, const glm::dvec3& direction, int size) {
     if (!(glm::length(direction) > 0)) throw std::runtime_error("cannot draw: no direction to look in");
-    const Sphere sphere = bounds(mesh);
+    const Sphere sphere = bounds(level.mesh);
     const OrthoView view =
         square_view(direction, sphere.centre, room * sphere.radius, check_size(size) * supersampling);
     Picture out = blank(size, size, paper);
-    shrink_into(out, 0, 0, size, lit_rgba(rasterise(mesh, texture, view), view), supersampling);
+    shrink_into(out, 0, 0, size, lit_rgba(rasterise(level, view), view), supersampling);
     return out;
 }
 

@@ -34,7 +34,7 @@ std::string level_caption(const Level& level);
 Picture picture(const Mesh& mesh, const glm::dvec3& direction, int size);
 
 /// The same in the same light, without GL, textured where there is a texture.
-Picture picture(const Mesh& mesh, const Texture& texture, const glm::dvec3& direction, int size);
+Picture picture(const Level& level, const glm::dvec3& direction, int size);
 
 /// .png, by a temporary name. Throws std::runtime_error.
 void write_png(const std::filesystem::path& path, const Picture& picture);

@@ -1,4 +1,5 @@
 // glcast-run: start a program with the shim preloaded, wait for its cast, and leave nothing behind.
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
@@ -116,6 +117,23 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
     }
 }
 
+/// What the library could not say itself.
+void report_unsaid(const Seen& seen) {
+    if (seen.unsaid > 0) {
+        std::cerr << "glcast-run: " << seen.unsaid << (seen.unsaid == 1 ? " line" : " lines")
+                  << " of the library did not go to the program's stderr: " << seen.unsaid_why << '\n';
+    }
+}
+
+/// Descriptors 0 to 2 that are closed would become a pipe of ours. A child has them closed again.
+void occupy_standard_descriptors() {
+    for (int descriptor = 0; descriptor <= STDERR_FILENO; ++descriptor) {
+        if (fcntl(descriptor, F_GETFD) < 0) {
+            open("/dev/null", O_RDWR | O_CLOEXEC); // the lowest that is free: this one
+        }
+    }
+}
+
 /// Why a program that was started by another, by a shell script say, may not have the library in it.
 std::string find_obstacle(const Program& program) {
     for (const fs::path& file : program.running()) {
@@ -152,6 +170,7 @@ int report(const Options& options, const Seen& seen, const std::string& ending) 
 }
 
 int run(const Options& options) {
+    occupy_standard_descriptors();
     const fs::path program_file = find_program(options.program[0]), shim = find_shim();
     if (const std::string trouble = check_all(options, program_file, shim); !trouble.empty()) {
         return fail(trouble);
@@ -182,6 +201,7 @@ int run(const Options& options) {
     }
     program.end(end_grace_ms);
     pipe.read_into(seen); // a capture that was finished while the program was being ended counts
+    report_unsaid(seen);
     return result ? *result : report(options, seen, ending);
 }
 

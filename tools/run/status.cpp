@@ -36,6 +36,11 @@ void take_line(const std::string& line, Seen& seen) {
         {"settled", [](const std::string&, Seen& s) { s.looking = false; }},
         {"failed",
          [](const std::string& rest, Seen& s) { s.failed = rest.empty() ? "the capture failed" : rest; }},
+        {"unsaid",
+         [=](const std::string& rest, Seen& s) {
+             s.unsaid = std::max(s.unsaid, number(rest));
+             s.unsaid_why = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+         }},
         {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},
         {"listed", [](const std::string&, Seen& s) { s.listed = true; }},
     };

@@ -18,6 +18,8 @@ struct Seen {
     long captured_frame = 0;   ///< the last
     std::string captured_file; ///< its name
     std::string failed;
+    long unsaid = 0;        ///< lines of the library that the program's stderr did not take
+    std::string unsaid_why; ///< the last time
     std::vector<std::string> groups;
     bool listed = false;
     bool looking = false; ///< another window may still show something better

@@ -98,15 +98,15 @@ Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double la
     return deflated(bytes);
 }
 
-Bytes packed_level(const CutMesh& textured, double largest_distance, const Cube& cube) {
+Bytes packed_level(const CutMesh& cut, double largest_distance, const Cube& cube) {
     Bytes bytes;
-    add_vertices(bytes, textured.mesh, textured.distance, largest_distance, cube);
+    add_vertices(bytes, cut.mesh, cut.distance, largest_distance, cube);
     for (int k = 0; k < 2; ++k) {
         Differences to(bytes);
-        for (const glm::vec2& at : textured.coordinates) to.number(rounded(at[k]));
+        for (const glm::vec2& at : cut.coordinates) to.number(rounded(at[k]));
     }
-    add_bytes(bytes, textured.tangents, 127);
-    add_triangles(bytes, textured.mesh);
+    add_bytes(bytes, cut.tangents, 127);
+    add_triangles(bytes, cut.mesh);
     return deflated(bytes);
 }
 

@@ -36,6 +36,6 @@ struct Cube {
 ///
 /// Read by page/levels.js.
 Bytes packed_level(const Mesh& mesh, std::span<const double> distance, double largest_distance, const Cube& cube);
-Bytes packed_level(const CutMesh& textured, double largest_distance, const Cube& cube);
+Bytes packed_level(const CutMesh& cut, double largest_distance, const Cube& cube);
 
 } // namespace glcast::view

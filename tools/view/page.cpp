@@ -29,6 +29,16 @@ Cube cube_round(const PageInput& input) {
 Json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 Json numbers(const glm::ivec3& v) { return {v.x, v.y, v.z}; }
 
+const Texture& texture_of(const PageLevel& level) {
+    static const Texture none;
+    return level.texture ? *level.texture : none;
+}
+
+const Wedges& wedges_of(const PageLevel& level) {
+    static const Wedges none;
+    return level.wedges ? *level.wedges : none;
+}
+
 bool is_textured(const PageLevel& level) {
     return level.texture && !level.texture->empty() && !level.texture->colour.rgb.empty();
 }
@@ -50,8 +60,8 @@ Json describe(const PageLevel& level, bool included) {
             {"unsupported", error.unsupported_area_share},
             {"vertexMean", mean / double(std::max<std::size_t>(level.vertex_distance.size(), 1))},
             {"vertexMax", largest},
-            {"normals", !level.mesh->normals.empty()},
-            {"colours", !level.mesh->colours.empty()},
+            {"normals", has_normals(*level.mesh, wedges_of(level))},
+            {"colours", has_colours(*level.mesh, wedges_of(level))},
             {"included", included}};
 }
 
@@ -110,14 +120,17 @@ class Atlases {
 /// The level as text, and what the page must know to read it.
 std::string pack(const PageLevel& level, const Cube& cube, Json& described, Atlases& atlases) {
     const double largest = described["vertexMax"].get<double>();
-    if (!is_textured(level)) return base64(packed_level(*level.mesh, level.vertex_distance, largest, cube));
-    CutMesh cut = cut_at_seams(*level.mesh, level.vertex_distance, *level.texture);
+    const Wedges& wedges = wedges_of(level);
+    if (!is_textured(level) && wedges.empty())
+        return base64(packed_level(*level.mesh, level.vertex_distance, largest, cube));
+    CutMesh cut = cut_at_seams(*level.mesh, level.vertex_distance, texture_of(level), wedges);
+    described["packedVertices"] = cut.mesh.positions.size();
+    if (!is_textured(level)) return base64(packed_level(cut, largest, cube));
     if (cut.mesh.colours.empty()) { // files have the texture instead; what is left of it at the vertices
         for (const glm::vec2& at : cut.coordinates) cut.mesh.colours.push_back(sample(level.texture->colour, at));
         described["colours"] = true;
     }
-    described["packedVertices"] = cut.mesh.positions.size();
-    const bool bent = !level.texture->tangents.empty() && !level.mesh->normals.empty();
+    const bool bent = !level.texture->tangents.empty() && has_normals(*level.mesh, wedges);
     described["texture"] = {{"width", level.texture->colour.width},
                             {"height", level.texture->colour.height},
                             {"colour", atlases.add(level.texture->colour)},

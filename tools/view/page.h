@@ -14,7 +14,8 @@ namespace glcast {
 /// A level and what is known of it. Lengths in model units.
 struct PageLevel {
     const Mesh* mesh = nullptr;       ///< outlives make_page()
-    const Texture* texture = nullptr; ///< likewise; null or empty: colours of the vertices are all there is
+    const Texture* texture = nullptr; ///< likewise; null or empty: there is none
+    const Wedges* wedges = nullptr;   ///< likewise
     std::string name;
     std::uint64_t glb_bytes = 0;           ///< of the level as a .glb of its own
     LevelError error;

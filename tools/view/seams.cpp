@@ -1,43 +1,23 @@
 #include "tools/view/seams.h"
 
-#include <map>
-#include <stdexcept>
-#include <tuple>
+#include "tools/mesh/corner_split.h"
 
 namespace glcast::view {
-namespace {
 
-using Corner = std::tuple<std::uint32_t, float, float, float, float, float, float>;
-
-} // namespace
-
-CutMesh cut_at_seams(const Mesh& mesh, std::span<const double> distance, const Texture& texture) {
-    const bool bent = !texture.tangents.empty();
-    if (texture.coordinates.size() != mesh.triangles.size() ||
-        (bent && texture.tangents.size() != mesh.triangles.size()))
-        throw std::runtime_error("cannot show the texture: it is not one of its mesh");
+CutMesh cut_at_seams(const Mesh& mesh, std::span<const double> distance, const Texture& texture,
+                     const Wedges& wedges) {
+    CornerSplit split = split_corners(mesh, texture, wedges);
     CutMesh cut;
-    std::map<Corner, std::uint32_t> numbers;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        Triangle triangle = mesh.triangles[t];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = triangle[k];
-            const glm::vec2 at = texture.coordinates[t][k];
-            const glm::vec4 tangent = bent ? texture.tangents[t][k] : glm::vec4(1, 0, 0, 1);
-            const Corner corner{v, at.x, at.y, tangent.x, tangent.y, tangent.z, tangent.w};
-            const auto [found, is_new] =
-                numbers.try_emplace(corner, std::uint32_t(cut.mesh.positions.size()));
-            triangle[k] = found->second;
-            if (!is_new) continue;
-            cut.mesh.positions.push_back(mesh.positions.at(v));
-            if (!mesh.normals.empty()) cut.mesh.normals.push_back(mesh.normals[v]);
-            if (!mesh.colours.empty()) cut.mesh.colours.push_back(mesh.colours[v]);
-            cut.distance.push_back(distance[v]);
-            cut.coordinates.push_back(at);
-            cut.tangents.push_back(tangent);
-        }
-        cut.mesh.triangles.push_back(triangle);
+    for (std::size_t v = 0; v < split.vertices(mesh); ++v) {
+        const std::uint32_t original = split.original(mesh, v);
+        cut.mesh.positions.push_back(mesh.positions[original]);
+        cut.distance.push_back(distance[original]);
+        if (has_normals(mesh, wedges)) cut.mesh.normals.push_back(split.normal(mesh, v));
+        if (has_colours(mesh, wedges)) cut.mesh.colours.push_back(split.colour(mesh, v));
     }
+    cut.mesh.triangles = std::move(split.triangles);
+    cut.coordinates = std::move(split.coordinates);
+    cut.tangents = std::move(split.tangents);
     return cut;
 }
 
