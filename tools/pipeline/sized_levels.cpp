@@ -30,6 +30,10 @@ std::vector<double> default_pixels(int n) {
 double error_within(double pixels, int n) { return n / pixels * pixel_share; }
 
 double LevelSearch::estimate(std::size_t count) {
+    if (count >= all) { // the full surface itself
+        sketches.push_back({double(all), 0});
+        return 0;
+    }
     simplification.collapse_to(count);
     Level level;
     level.mesh = simplification.level(count, false);
