@@ -43,8 +43,9 @@ void DepthShift::apply(const GlTable& gl, int steps, GLenum matrix_mode) const {
     gl.MatrixMode(GL_PROJECTION);
     gl.LoadMatrixd(glm::value_ptr(shifted));
     gl.MatrixMode(matrix_mode);
-    gl.PolygonOffset(static_cast<float>(steps) * slope_step, 0);
-    steps ? gl.Enable(GL_POLYGON_OFFSET_FILL) : gl.Disable(GL_POLYGON_OFFSET_FILL);
+    const float times = static_cast<float>(steps);
+    if (offset_clamp) offset_clamp(times * slope_step, 0, times * slope_most);
+    steps&& offset_clamp ? gl.Enable(GL_POLYGON_OFFSET_FILL) : gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 } // namespace glcast

@@ -46,11 +46,17 @@ class OffsetLevels {
     std::vector<double> levels; ///< deepest first, each once
 };
 
+/// glPolygonOffsetClamp, or null where the driver has none.
+using OffsetClamp = void(APIENTRYP)(GLfloat factor, GLfloat units, GLfloat clamp);
+
 /// How a pass draws a level: `steps` towards the viewer, negative ones away.
 struct DepthShift {
     glm::dmat4 projection; ///< without any
     double clip_step = 0;  ///< depth in clip space
-    float slope_step = 0;  ///< factor of glPolygonOffset
+    float slope_step = 0;  ///< factor of glPolygonOffset, used where offset_clamp bounds it
+    /// Of a face seen edge-on the slope has no end: unbounded, its few pixels go to the sides of the box.
+    float slope_most = 0; ///< window depth
+    OffsetClamp offset_clamp = nullptr;
 
     /// `matrix_mode`: the mode to leave.
     void apply(const GlTable& gl, int steps, GLenum matrix_mode) const;
@@ -58,5 +64,8 @@ struct DepthShift {
 
 /// A step, in samples, and as much again for each sample of depth that a face rises in one across.
 inline constexpr double offset_step = 1.0 / 128;
+
+/// Faces steeper than so many samples a sample are drawn no farther forward.
+inline constexpr double steepest = 16;
 
 } // namespace glcast

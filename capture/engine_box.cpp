@@ -72,6 +72,7 @@ Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool 
     std::vector<float> depth;
     Pass pass;
     pass.box = box;
+    pass.offsets = false; // they change no extent
     for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
         pass.axis = axis;
         for (Side side : {Side::minus, Side::plus}) {

@@ -108,11 +108,17 @@ void set_light(const GlTable& gl, GLenum light, const glm::vec4& towards, const 
     gl.Enable(light);
 }
 
+OffsetClamp bounded_offset(const GlTable& gl) {
+    if (has_extension(gl, "GL_ARB_polygon_offset_clamp")) return gl.PolygonOffsetClamp;
+    if (has_extension(gl, "GL_EXT_polygon_offset_clamp")) return gl.PolygonOffsetClampEXT;
+    return nullptr;
+}
+
 } // namespace
 
 PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options)
     : gl(gl), draw(draw), eye_to_capture(options.eye_to_capture),
-      mirrored_projection(options.mirrored_projection) {}
+      mirrored_projection(options.mirrored_projection), offset_clamp(bounded_offset(gl)) {}
 
 /// The first pass of all is drawn again where it met several offsets, which it then knows.
 void PassRunner::run(const Pass& pass, const Target& target) {
@@ -133,6 +139,8 @@ PassFacts PassRunner::facts(const Pass& pass, const Target& target, bool learnin
     facts.shift.projection = projection(pass);
     facts.shift.clip_step = towards * 2 * offset_step / target.size() / (pass.far - pass.near);
     facts.shift.slope_step = static_cast<float>(towards * offset_step);
+    facts.shift.slope_most = static_cast<float>(facts.shift.clip_step / 2 * steepest);
+    facts.shift.offset_clamp = offset_clamp;
     return facts;
 }
 

@@ -77,6 +77,7 @@ class PassRunner {
     bool own_program = false, unblended = false;
     OffsetLevels offset_levels;
     bool offsets_known = false;
+    OffsetClamp offset_clamp;
 };
 
 } // namespace glcast

@@ -119,19 +119,23 @@ constexpr Alias aliases[] = {
 };
 } // namespace
 
+// In place: a table is 26 kB, and the thread that asks may have a stack of 32.
 GlTable load_gl_table(GlGetProc get) {
-    GlProc procs[gl_call_count];
-    for (std::size_t i = 0; i < gl_call_count; ++i) procs[i] = get(gl_call_names[i]);
+    GlTable table;
+    const auto at = [&](std::size_t call) { return reinterpret_cast<char*>(&table) + call * sizeof(GlProc); };
+    const auto read = [&](GlCall call) {
+        GlProc proc;
+        std::memcpy(&proc, at(static_cast<std::size_t>(call)), sizeof proc);
+        return proc;
+    };
+    const auto write = [&](std::size_t call, GlProc proc) { std::memcpy(at(call), &proc, sizeof proc); };
+    for (std::size_t i = 0; i < gl_call_count; ++i) write(i, get(gl_call_names[i]));
     for (int pass = 0; pass < 2; ++pass) {
         for (const Alias& alias : aliases) {
-            GlProc& a = procs[static_cast<std::size_t>(alias.a)];
-            GlProc& b = procs[static_cast<std::size_t>(alias.b)];
-            if (!a) a = b;
-            if (!b) b = a;
+            if (!read(alias.a)) write(static_cast<std::size_t>(alias.a), read(alias.b));
+            if (!read(alias.b)) write(static_cast<std::size_t>(alias.b), read(alias.a));
         }
     }
-    GlTable table;
-    std::memcpy(&table, procs, sizeof table);
     return table;
 }
 

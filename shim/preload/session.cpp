@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "shim/preload/front_buffer.h"
+#include "shim/preload/host_thread.h"
+#include "shim/preload/own_stack.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
@@ -18,19 +20,25 @@ std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
 
+Session* make_session() {
+    auto* fresh = new Session;
+    record::set_memory_limit(fresh->options.memory_mib << 20);
+    if (!fresh->options.error.empty()) {
+        say("%s (nothing will be captured)", fresh->options.error.c_str());
+        tell("failed", fresh->options.error);
+        fresh->settled = true;
+    }
+    return fresh;
+}
+
 } // namespace
 
 /// Never destroyed: other threads may draw while the process ends.
 Session& session() {
     static Session* const made = [] {
-        auto* fresh = new Session;
-        record::set_memory_limit(fresh->options.memory_mib << 20);
-        if (!fresh->options.error.empty()) {
-            say("%s (nothing will be captured)", fresh->options.error.c_str());
-            tell("failed", fresh->options.error);
-            fresh->settled = true;
-        }
-        existing = fresh;
+        const HostThread program;
+        Session* fresh = nullptr;
+        on_own_stack(HeldSignals::all, [&] { existing = fresh = make_session(); });
         return fresh;
     }();
     return *made;
@@ -62,7 +70,10 @@ void give_up(Session& s) {
 /// The one place where exceptions end: the shim gives up, the program goes on.
 template <class Work> void guarded(Work&& work) noexcept {
     try {
-        if (session().options.armed && session().is_ours()) work(session());
+        Session& s = session();
+        if (!s.options.armed || !s.is_ours()) return;
+        const HostThread program;
+        work(s);
     } catch (const std::exception& error) {
         say_once("gave up: %s", error.what());
         if (Session* s = existing) {
@@ -74,10 +85,8 @@ template <class Work> void guarded(Work&& work) noexcept {
     }
 }
 
-void announce(Session& s, const NativeContext& context) {
-    Clock::time_point never{};
-    s.start.compare_exchange_strong(never, Clock::now()); // before any other thread asks how late it is
-    if (s.hooked.exchange(true)) return;
+/// The first context that is current.
+void greet(Session& s, const NativeContext& context) {
     say("hooked %s in %s", context.system->name(), program_name().c_str());
     tell("hooked", context.system->name());
     s.triggers.look_for_signals();
@@ -90,6 +99,12 @@ void announce(Session& s, const NativeContext& context) {
                    .frames = [&s] { return s.frames.load(); },
                    .fire = [&s] { s.triggers.fire(), update_unwanted(s); },
                    .look_for_signals = [&s] { s.triggers.look_for_signals(), update_unwanted(s); }});
+}
+
+void announce(Session& s, const NativeContext& context) {
+    Clock::time_point never{};
+    s.start.compare_exchange_strong(never, Clock::now()); // before any other thread asks how late it is
+    if (!s.hooked.exchange(true)) on_own_stack(HeldSignals::all, [&] { greet(s, context); });
 }
 
 NativeContext* find_context(Session& s, void* handle) {
@@ -160,7 +175,7 @@ void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable
         const std::lock_guard lock(s.mutex);
         return refuse(s, why);
     }
-    record::begin_frame(*context.shadow);
+    on_own_stack(HeldSignals::all, [&] { record::begin_frame(*context.shadow); }); // it asks GL for all its state
     const std::lock_guard lock(s.mutex); // other threads look at what is recorded
     context.recording = true;
     context.recorded_drawable = drawable;

@@ -6,6 +6,7 @@
 
 #include "shim/preload/cast.h"
 #include "shim/preload/meant_program.h"
+#include "shim/preload/own_stack.h"
 #include "shim/preload/own_thread.h"
 #include "shim/preload/session_state.h"
 #include "shim/preload/status.h"
@@ -225,11 +226,7 @@ class HeldContexts {
     }
 };
 
-} // namespace
-
-void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
-                long number) {
-    if (parts.empty()) return frame_without_cast(s, {});
+void cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
     if (s.casting.exchange(true)) return; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
@@ -244,6 +241,14 @@ void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* c
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
     if (among_windows(s, window.second, result)) return;
     nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
+}
+
+} // namespace
+
+void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
+                long number) {
+    if (parts.empty()) return frame_without_cast(s, {});
+    on_own_stack(HeldSignals::handled, [&] { cast_or_pass(s, parts, current, window, number); });
 }
 
 } // namespace glcast::preload

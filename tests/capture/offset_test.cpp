@@ -373,5 +373,38 @@ TEST_F(Offset, MarksStayOnTheirSurface) {
               one_step);
 }
 
+/// Faces that one axis sees edge-on have no slope there that ends: their few pixels stay where the faces are, and the box
+/// is the one without offsets.
+TEST_F(Offset, FacesSeenEdgeOnStayWhereTheyAre) {
+    const auto steps = [](float depth_a_step) -> DrawFunction {
+        return [depth_a_step](const GlTable& gl) {
+            gl.Enable(GL_DEPTH_TEST);
+            for (int k = 0; k < 3; ++k) {
+                offset(gl, depth_a_step * static_cast<float>(k), depth_a_step * static_cast<float>(k));
+                const double s = 1 - 0.2 * k, z = 0.3 * k;
+                gl.Begin(GL_QUADS); // in one plane with the y axis
+                gl.Vertex3d(-s, -s, z - 0.7 * s), gl.Vertex3d(s, -s, z + 0.7 * s);
+                gl.Vertex3d(s, s, z + 0.7 * s), gl.Vertex3d(-s, s, z - 0.7 * s);
+                gl.End();
+            }
+            gl.Disable(GL_POLYGON_OFFSET_FILL);
+        };
+    };
+    EngineOptions options = small_options(n);
+    for (const double tilt : {0.0, 1e-9, 1e-7, 1e-5}) {
+        SCOPED_TRACE(tilt);
+        options.eye_to_capture = glm::rotate(glm::dmat4(1), tilt, glm::dvec3(1, 0, 0));
+        const Cast plain = capture(gl, steps(0), options), stepped = capture(gl, steps(1), options);
+        ASSERT_TRUE(stepped.report.ok) << stepped.report.error;
+        EXPECT_NEAR(stepped.report.box.size, plain.report.box.size, 1e-3 * plain.report.box.size);
+        for (const ViewImage& image : stepped.images)
+            for (std::size_t p = 0; p < image.depth.size(); ++p)
+                if (image.covered(p)) {
+                    EXPECT_GT(image.depth[p], 1.5f / n);
+                    EXPECT_LT(image.depth[p], 1 - 1.5f / n);
+                }
+    }
+}
+
 } // namespace
 } // namespace glcast::test

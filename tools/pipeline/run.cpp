@@ -11,6 +11,7 @@
 #include "tools/io/level_set.h"
 #include "tools/pipeline/progressive_output.h"
 #include "tools/texture/outline.h"
+#include "tools/texture/wedge_fit.h"
 
 namespace glcast {
 namespace {
@@ -86,7 +87,11 @@ Level Run::draft_of(Mesh&& simplified, bool may_move) const {
         level.error = full.error;
         return level;
     }
-    if (may_move && options.progressive.empty()) fit_outlines(level.mesh, captured);
+    if (!options.progressive.empty()) return level;
+    if (may_move) fit_outlines(level.mesh, captured);
+    WedgeOptions corners;
+    if (options.texture.kind == TextureChoice::Kind::sized) corners.colour = WedgeOptions::any_colour; // the texture has them
+    fit_wedges(level, captured, corners);
     return level;
 }
 

@@ -29,10 +29,14 @@ double squared_difference(const Shown& shown, const CapturedPoint& captured, flo
     return double(glm::dot(colour, colour) / 3 + light * light);
 }
 
-Texture baked(Level& level, const CapturedSurface& captured, TextureOptions options, TextureReport& report) {
+TextureReport bake(Level& level, const CapturedSurface& captured, TextureOptions options) {
+    const Level before = level;
+    TextureReport report;
     for (;; options.size *= 2) try {
-            return bake_texture(level.mesh, captured, options, &report);
+            bake_texture(level, captured, options, &report);
+            return report;
         } catch (const AtlasTooSmall&) {
+            level = before;
             if (options.size >= largest_texture) throw;
         }
 }
@@ -69,14 +73,9 @@ std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& 
         if (level.pixels > 0) options.texels_per_sample = std::min(1.0, 2 * level.pixels / captured.resolution());
     } else
         options.size = choice.size;
-    const std::vector<glm::vec3> normals = level.mesh.normals;
-    TextureReport report;
     try {
-        level.texture = baked(level, captured, options, report);
-        level.wedges = {}; // a texture has its own creases
-        return report;
+        return bake(level, captured, options);
     } catch (const AtlasTooSmall&) {
-        level.mesh.normals = normals;
         why_not = level.name + " keeps the colours of its vertices: its texture has too many charts for " +
                   std::to_string(largest_texture) + " x " + std::to_string(largest_texture) + " texels";
         return {};

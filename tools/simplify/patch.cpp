@@ -197,7 +197,7 @@ template <int N> bool Patch<N>::allowed(std::uint32_t c, const glm::dvec3& to) {
     if (!keeps_manifold(c)) return false;
     const std::uint32_t a = at[c], b = after(c);
     if (stage + 1 < std::size(strictness) && !(keeps_shape(a, b, to) && keeps_shape(b, a, to))) return false;
-    if (!is_guarded()) return true;
+    if (!guard) return true;
     crossed = crosses(c, to);
     return !crossed;
 }
@@ -321,7 +321,7 @@ template <int N> void Patch<N>::collapse(std::uint32_t c, const Placement& to, S
     half[edge[c]] = none;
     remove_triangle(c);
     remove_triangle(back);
-    if (is_guarded()) guard->made_it(guarded(), change);
+    if (guard) guard->made_it(guarded(), change);
     near_refused[kept] |= near_refused[removed];
     // What was refused near it may be allowed now.
     queue_at(kept);

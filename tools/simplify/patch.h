@@ -30,14 +30,13 @@ struct Step {
 };
 
 /// What a collapse may do to the triangles around it. The first row keeps the shape; when it allows no more
-/// and the target is not reached, the next takes over. The last asks for nothing but a manifold.
+/// and the target is not reached, the next takes over. The last asks for no more than a manifold that does not
+/// pass through itself.
 struct Strictness {
     double min_cosine;  ///< between a triangle's normal before and after
     double min_quality; ///< 1 is equilateral, 0 degenerate; what was worse already may stay as bad
-    bool may_cross;     ///< the surface may pass through itself
 };
-constexpr Strictness strictness[] = {
-    {0.2, 0.01, false}, {0.0, 1e-6, false}, {0.0, 1e-6, true}, {-2.0, 0.0, true}};
+constexpr Strictness strictness[] = {{0.2, 0.01}, {0.0, 1e-6}, {-2.0, 0.0}};
 
 template <int N> class Patch {
   public:
@@ -95,7 +94,6 @@ template <int N> class Patch {
     CrossingGuard::Surface guarded() const {
         return {std::span(position).first(std::min<std::size_t>(ghost, position.size())), at};
     }
-    bool is_guarded() const { return guard && !strictness[stage].may_cross; }
     void refuse(std::uint32_t c);
     void remove_triangle(std::uint32_t c);
     void renew_planes(std::uint32_t c, const glm::dvec3& to);

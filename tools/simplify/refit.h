@@ -2,17 +2,10 @@
 // Method: the inner loop of Hoppe, DeRose, Duchamp, McDonald and Stuetzle 1993, "Mesh optimization", with
 // swaps of edges, and no collapses.
 #pragma once
+#include "tools/simplify/area_points.h"
 #include "tools/simplify/collapser.h"
 
 namespace glcast {
-
-/// Where a share of a surface's area lies.
-struct SurfaceArea {
-    const Mesh& surface;
-    std::vector<double> up_to; ///< twice the area of the triangles up to each, it included
-
-    explicit SurfaceArea(const Mesh& mesh); ///< `mesh` must outlive this
-};
 
 /// Moves vertices and swaps edges of the remainder towards the least sum of squared distances from points
 /// spread evenly over `surface`. Which part of the remainder a point belongs to is found by walking along it,

@@ -74,9 +74,9 @@ void put(Picture& picture, std::size_t texel, const glm::vec3& value) {
 
 class Baker {
   public:
-    Baker(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout, double reach,
-          Texture& texture)
-        : mesh(mesh), captured(captured), layout(layout), texture(texture), reach(reach),
+    Baker(const Mesh& mesh, const Wedges& wedges, const CapturedSurface& captured, const Layout& layout,
+          double reach, Texture& texture)
+        : mesh(mesh), wedges(wedges), captured(captured), layout(layout), texture(texture), reach(reach),
           looks(std::clamp(int(std::round(1 / (layout.atlas.density * captured.sample()))), 1, most_looks)) {}
 
     struct Done {
@@ -104,10 +104,11 @@ class Baker {
         std::uint32_t triangle = no_triangle;
         std::array<glm::dvec2, 3> corners;
         glm::dvec2 slope[2]; ///< of the weights of corners 1 and 2; 0: it has no area
+        std::array<glm::vec3, 3> normal;
         glm::vec3 tangent[3], bitangent[3];
     };
     Facet facet_of(std::uint32_t t) const {
-        Facet made{t, in_atlas(mesh, layout.charts, layout.atlas, t), {}, {}, {}};
+        Facet made{t, in_atlas(mesh, layout.charts, layout.atlas, t), {}, corner_normals(mesh, wedges, t), {}, {}};
         const glm::dvec2 a = made.corners[1] - made.corners[0], b = made.corners[2] - made.corners[0];
         if (const double area = a.x * b.y - a.y * b.x; area != 0) {
             made.slope[0] = glm::dvec2(b.y, -b.x) / area;
@@ -116,7 +117,7 @@ class Baker {
         for (int k = 0; k < 3; ++k) {
             const glm::vec4& own = texture.tangents[t][k];
             made.tangent[k] = glm::vec3(own);
-            made.bitangent[k] = own.w * glm::cross(mesh.normals[mesh.triangles[t][k]], made.tangent[k]);
+            made.bitangent[k] = own.w * glm::cross(made.normal[k], made.tangent[k]);
         }
         return made;
     }
@@ -136,7 +137,7 @@ class Baker {
             return weight.x * a + weight.y * b + weight.z * c;
         };
         const glm::vec3 normal =
-            unit_or(mix(mesh.normals[v[0]], mesh.normals[v[1]], mesh.normals[v[2]]), mesh.normals[v[0]]);
+            unit_or(mix(facet.normal[0], facet.normal[1], facet.normal[2]), facet.normal[0]);
         const glm::vec3 facing =
             layout.triangle_normals[t] != glm::vec3(0) ? layout.triangle_normals[t] : normal;
         const CapturedPoint seen = captured.look(point, normal, facing, reach);
@@ -162,6 +163,7 @@ class Baker {
     }
 
     const Mesh& mesh;
+    const Wedges& wedges;
     const CapturedSurface& captured;
     const Layout& layout;
     Texture& texture;
@@ -172,7 +174,7 @@ class Baker {
 
 Picture blank(int size) { return {size, size, std::vector<std::uint8_t>(std::size_t(size) * size * 3)}; }
 
-void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout& layout,
+void bake_texels(const Mesh& mesh, const Wedges& wedges, const CapturedSurface& captured, const Layout& layout,
                  const std::vector<std::uint32_t>& owners, Texture& texture, TextureReport& made) {
     const int size = layout.atlas.size;
     texture.colour = blank(size);
@@ -183,7 +185,7 @@ void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout
     // Square by square: what one row reads of a large mesh is still in the caches for the next.
     const int across = (size + block - 1) / block;
     tbb::parallel_for(0, across * across, [&](int number) {
-        Baker baker(mesh, captured, layout, reach, texture);
+        Baker baker(mesh, wedges, captured, layout, reach, texture);
         std::size_t mine = 0, missed = 0;
         const int x0 = number % across * block, y0 = number / across * block;
         for (int y = y0; y < std::min(y0 + block, size); ++y)
@@ -204,27 +206,38 @@ void bake_texels(const Mesh& mesh, const CapturedSurface& captured, const Layout
     fill_unknown(texture.normal, known);
 }
 
-} // namespace
+/// The mesh cut open where its wedges end, as far as tangents are concerned.
+Mesh cut_at_wedges(const Mesh& mesh, const Wedges& wedges) {
+    Mesh cut;
+    cut.normals = wedges.normals;
+    cut.triangles = wedges.corners;
+    cut.positions.resize(wedges.normals.size());
+    for (std::size_t t = 0; t < cut.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) cut.positions[cut.triangles[t][k]] = mesh.positions[mesh.triangles[t][k]];
+    return cut;
+}
 
-Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options,
-                     TextureReport* report) {
-    check(mesh, captured, options);
+/// `wedges`: with normals to be shaded with.
+Texture baked(const Mesh& mesh, const Wedges& wedges, const Neighbours& neighbours, const CapturedSurface& captured,
+              const std::vector<glm::vec3>& normals, const TextureOptions& options, TextureReport* report) {
     const double sample = captured.sample();
     const glm::dvec3 origin = captured.first_sample();
     TextureReport made;
     Texture texture;
     Layout layout;
-    const Neighbours neighbours = find_neighbours(mesh);
-    layout.triangle_normals = triangle_normals(mesh);
-    make_shading_normals(mesh, neighbours, layout.triangle_normals);
-    layout.charts = make_charts(
-        mesh, neighbours, choose_views(mesh, neighbours, layout.triangle_normals, crumb * sample * sample),
-        sample, origin);
+    layout.triangle_normals = normals;
+    layout.charts =
+        make_charts(mesh, neighbours, choose_views(mesh, neighbours, normals, crumb * sample * sample), sample, origin);
     layout.atlas = (options.smallest ? pack_tightly : pack)(layout.charts, options.size, options.gutter,
                                                             options.texels_per_sample / sample, origin);
     const auto owners = find_owners(mesh, neighbours, layout.charts, layout.atlas, texture.coordinates);
-    texture.tangents = make_tangents(mesh, neighbours, layout.charts.of, texture.coordinates);
-    bake_texels(mesh, captured, layout, owners, texture, made);
+    if (wedges.empty())
+        texture.tangents = make_tangents(mesh, neighbours, layout.charts.of, texture.coordinates);
+    else {
+        const Mesh cut = cut_at_wedges(mesh, wedges);
+        texture.tangents = make_tangents(cut, find_neighbours(cut), layout.charts.of, texture.coordinates);
+    }
+    bake_texels(mesh, wedges, captured, layout, owners, texture, made);
 
     made.charts = layout.charts.charts.size();
     made.size = layout.atlas.size;
@@ -232,6 +245,32 @@ Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureO
     made.texels_per_sample = layout.atlas.density * sample;
     if (report) *report = made;
     return texture;
+}
+
+} // namespace
+
+Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options,
+                     TextureReport* report) {
+    check(mesh, captured, options);
+    const Neighbours neighbours = find_neighbours(mesh);
+    const std::vector<glm::vec3> normals = triangle_normals(mesh);
+    make_shading_normals(mesh, neighbours, normals);
+    return baked(mesh, {}, neighbours, captured, normals, options, report);
+}
+
+void bake_texture(Level& level, const CapturedSurface& captured, const TextureOptions& options,
+                  TextureReport* report) {
+    level.wedges.colours.clear();
+    if (level.wedges.normals.empty()) {
+        level.wedges = {};
+        level.texture = bake_texture(level.mesh, captured, options, report);
+        return;
+    }
+    check(level.mesh, captured, options);
+    const Neighbours neighbours = find_neighbours(level.mesh);
+    const std::vector<glm::vec3> normals = triangle_normals(level.mesh);
+    make_shading_normals(level.mesh, neighbours, level.wedges, normals);
+    level.texture = baked(level.mesh, level.wedges, neighbours, captured, normals, options, report);
 }
 
 } // namespace glcast

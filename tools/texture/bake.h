@@ -2,8 +2,7 @@
 // Natvig 2006, "future work"; normal maps for simplified meshes: Cohen, Olano and Manocha 1998,
 // "Appearance-preserving simplification".
 #pragma once
-#include "tools/mesh/mesh.h"
-#include "tools/mesh/texture.h"
+#include "tools/mesh/level.h"
 #include "tools/reconstruct/captured_surface.h"
 
 namespace glcast {
@@ -30,10 +29,15 @@ struct TextureReport {
         0; ///< of these, where no ray saw the surface: what lies behind a closing, or the vertices' colours
 };
 
-/// The texture of a closed level, and the vertex normals that belong to it, which replace mesh.normals
-/// (shading_normals.h); colours of the vertices stay. Throws std::runtime_error when options are out of
-/// range or the mesh is empty, AtlasTooSmall (atlas.h) when there are too many charts. The same input gives the same texture,
-/// bit for bit, on any number of threads.
+/// Textures a closed level. Its normals become those that a normal map is made for (shading_normals.h): of its wedges,
+/// whose tangent frames end where they do, so that creases stay sharp; or of its vertices, where it has none. Colours of
+/// vertices stay, those of wedges, which a texture hides, go. Throws std::runtime_error when options are out of range or
+/// the mesh is empty, AtlasTooSmall (atlas.h) when there are too many charts. The same input gives the same texture, bit for bit, on any
+/// number of threads.
+void bake_texture(Level& level, const CapturedSurface& captured, const TextureOptions& options,
+                  TextureReport* report = nullptr);
+
+/// The same for a level without wedges.
 Texture bake_texture(Mesh& mesh, const CapturedSurface& captured, const TextureOptions& options,
                      TextureReport* report = nullptr);
 

@@ -1,20 +1,9 @@
 #include "tools/texture/least_squares.h"
 
-#include <glm/geometric.hpp>
+#include "tools/texture/conjugate_gradients.h"
 
 namespace glcast {
 namespace {
-
-using Vectors = std::vector<glm::dvec3>;
-
-constexpr int most_steps = 60;
-constexpr double enough = 1e-8; // of the squared gradient
-
-double dot(const Vectors& a, const Vectors& b) {
-    double sum = 0;
-    for (std::size_t v = 0; v < a.size(); ++v) sum += glm::dot(a[v], b[v]);
-    return sum;
-}
 
 /// What the residuals ask for at rest: the right side of the normal equations.
 Vectors pulls(std::span<const Residual> residuals, std::size_t vertices) {
@@ -41,21 +30,8 @@ Vectors times(std::span<const Residual> residuals, double inertia, const Vectors
 
 std::vector<glm::dvec3> least_squares_moves(std::span<const Residual> residuals, std::size_t vertices,
                                             double inertia) {
-    Vectors x(vertices, glm::dvec3(0)), rest = pulls(residuals, vertices), search = rest;
-    double now = dot(rest, rest);
-    const double last = enough * now;
-    for (int step = 0; step < most_steps && now > last; ++step) {
-        const Vectors image = times(residuals, inertia, search);
-        const double length = now / dot(search, image);
-        for (std::size_t v = 0; v < vertices; ++v) {
-            x[v] += length * search[v];
-            rest[v] -= length * image[v];
-        }
-        const double next = dot(rest, rest);
-        for (std::size_t v = 0; v < vertices; ++v) search[v] = rest[v] + next / now * search[v];
-        now = next;
-    }
-    return x;
+    return conjugate_gradients(pulls(residuals, vertices),
+                               [&](const Vectors& x) { return times(residuals, inertia, x); });
 }
 
 } // namespace glcast

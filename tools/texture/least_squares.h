@@ -18,8 +18,7 @@ struct Residual {
 };
 
 /// The move of each of so many vertices with the least sum of importance times square of what is left, plus
-/// `inertia` times squared moves. Conjugate gradients (Hestenes and Stiefel 1952), in one order: the same
-/// bits on any number of threads.
+/// `inertia` times squared moves. The same bits on any number of threads.
 std::vector<glm::dvec3> least_squares_moves(std::span<const Residual> residuals, std::size_t vertices,
                                             double inertia);
 

@@ -1,5 +1,6 @@
-// The vertex normals that a normal map is made for.
+// Normals that a level can be shaded with: those that a normal map is made for, and those of wedges.
 #pragma once
+#include "tools/mesh/wedges.h"
 #include "tools/texture/neighbours.h"
 
 namespace glcast {
@@ -11,6 +12,16 @@ namespace glcast {
 /// has the normals of what lies behind it (behind.h); a body with all normals inward keeps them. One normal
 /// for all corners of a vertex: seams of the atlas are no seams of the shading.
 void make_shading_normals(Mesh& mesh, const Neighbours& neighbours,
+                          const std::vector<glm::vec3>& triangle_normals);
+
+/// Turns normals of wedges that are further than `degrees` from a triangle of theirs towards it, until they are not. What
+/// points inward, further from it than 180 - `degrees`, stays inward and is bounded likewise.
+void bound_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
+                   const std::vector<glm::vec3>& triangle_normals, double degrees);
+
+/// The same for wedges that a normal map is made for; and what then points inward, joined to what does not, is turned
+/// about.
+void make_shading_normals(const Mesh& mesh, const Neighbours& neighbours, Wedges& wedges,
                           const std::vector<glm::vec3>& triangle_normals);
 
 } // namespace glcast

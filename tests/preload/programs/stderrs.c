@@ -1,7 +1,7 @@
-/* Draws six frames while its descriptor 2 is something that no message of others may touch. Usage: stderrs CASE
-   Prints what it found at the end, and ends with 0 where that is what it had made itself. Descriptor 20 is the other end of
-   2, where there is one. The cases are the table at the end: what descriptor 2 is when the program begins (set up before an
-   exec of itself), and what the program does once it runs. */
+/* Draws six frames while its descriptor 2 is something that no message of others may touch. Usage: stderrs
+   CASE Prints what it found at the end, and ends with 0 where that is what it had made itself. Descriptor 20
+   is the other end of 2, where there is one. The cases are the table at the end: what descriptor 2 is when
+   the program begins (set up before an exec of itself), and what the program does once it runs. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -179,7 +179,8 @@ static int hold_lock(void) {
     must(fcntl(2, F_SETLK, &lock) == 0, "F_SETLK");
     return -1;
 }
-/* As a server does that was started by root: the pipe is another user's, and /proc/self/fd is closed to it. */
+/* As a server does that was started by root: the pipe is another user's, and /proc/self/fd is closed to it.
+ */
 static int other_user(void) {
     must(fchmod(2, 0) == 0, "fchmod");
     if (geteuid() == 0) must(setresuid(65534, 65534, 65534) == 0, "setresuid");
@@ -193,7 +194,8 @@ static long read_peer(void) {
     if (S_ISREG(status.st_mode)) return pread(peer, all, sizeof all, 0);
     fcntl(peer, F_SETFL, O_NONBLOCK);
     long size = 0;
-    for (ssize_t got; size < (long)sizeof all && (got = read(peer, all + size, sizeof all - size)) > 0;) size += got;
+    for (ssize_t got; size < (long)sizeof all && (got = read(peer, all + size, sizeof all - size)) > 0;)
+        size += got;
     return size;
 }
 static int is_as_written(void) {
