@@ -42,6 +42,7 @@ std::string level_name(const std::filesystem::path& path, std::size_t level) {
 }
 
 void join_as_set(std::span<Level> levels) {
+    if (levels.size() < 2) return;
     std::uint64_t id = 0xcbf29ce484222325;
     for (const Level& level : levels) {
         mix(id, level.mesh.positions.data(), level.mesh.positions.size() * sizeof(glm::dvec3));

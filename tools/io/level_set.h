@@ -17,7 +17,7 @@ std::filesystem::path level_path(const std::filesystem::path& path, std::size_t 
 /// "gears_LOD0", ...: what the level's mesh is called in its file.
 std::string level_name(const std::filesystem::path& path, std::size_t level);
 
-/// Makes the levels, finest first, one set. Its number comes of what they hold.
+/// Makes the levels, finest first, one set, where there are several. Its number comes of what they hold.
 void join_as_set(std::span<Level> levels);
 
 /// "0123456789abcdef 1/4": the set, which of its levels, and of how many. Empty for a level of none.

@@ -14,10 +14,10 @@ constexpr double first_count = 65'536;      // triangles; sketches go down from 
 constexpr double sketch_step = 4;           // of counts
 constexpr double sketch_close_enough = 1.4; // of counts between which a limit lies
 constexpr double fit_gains = 1.6;           // the error of what is not fitted, of what is
-constexpr double close_enough = 1.15;       // of counts
-constexpr int most_tries = 3;               // of levels that are within the limit
-constexpr double margin = 0.95;             // of the limit: an estimate is no certificate
-constexpr double a_few_more = 1.15;
+constexpr double margin = 0.93;             // of the limit: an estimate is no certificate
+constexpr double far_within = 0.6;          // of the limit
+constexpr double least_step = 1.15, most_step = 2; // of counts
+constexpr double a_few_more = 1.2;
 
 } // namespace
 
@@ -83,27 +83,27 @@ SizedLevel LevelSearch::make(std::size_t count) const {
     return {finish(simplification.level(count)), count};
 }
 
-/// Errors are taken to fall with the count, in between as its inverse.
+/// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far within that
+/// one more try is worth it.
 SizedLevel LevelSearch::search(double limit) const {
     const double least = double(std::max(simplification.least(), fewest));
-    double coarse = least / close_enough, fine = double(all); // too coarse; fine enough, as far as is known
-    double next = std::clamp(sketched(limit * fit_gains), least, fine);
     SizedLevel found;
-    for (int within = 0; within < most_tries && fine > close_enough * coarse + 2;) {
-        SizedLevel tried = make(std::size_t(next));
-        const double error = tried.level.mesh.triangles.size() < all ? meter.glance(tried.level) : 0;
-        if (error <= margin * limit) {
-            fine = next, found = std::move(tried), ++within;
-            if (next <= least) break;
-        } else
-            coarse = next;
-        const double guess = next * std::clamp(error / (0.97 * margin * limit), 0.25, 4.0);
-        const double middle = std::sqrt(coarse * fine);
-        next = std::floor(std::clamp(guess, coarse * std::sqrt(close_enough), fine / std::sqrt(close_enough)));
-        if (next <= coarse || next >= fine) next = std::floor(middle);
-        next = std::max(next, least);
+    double coarse = 0; // the most triangles that were too few
+    for (double count = std::max(sketched(limit * fit_gains), least);;) {
+        SizedLevel tried = make(std::size_t(std::min(count, double(all))));
+        if (tried.level.mesh.triangles.size() >= all) return found.count ? std::move(found) : std::move(tried);
+        const double error = meter.glance(tried.level), share = error / (margin * limit);
+        if (share > 1) {
+            if (found.count) return found;
+            coarse = count;
+            count *= std::clamp(share, least_step, most_step);
+            continue;
+        }
+        const bool first = found.count == 0;
+        found = std::move(tried);
+        count = std::floor(count * std::max(share * least_step, 1 / most_step));
+        if (!first || share > far_within || count <= std::max(coarse, least)) return found;
     }
-    return found.count ? std::move(found) : make(std::size_t(fine));
 }
 
 std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<double>& limits) {
