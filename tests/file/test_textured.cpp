@@ -278,19 +278,3 @@ TEST(TexturedPly, CoordinatesOfCornersAndAPicture) {
     EXPECT_EQ(read_mesh(folder / "t.ply").triangles, level.mesh.triangles);
 }
 
-TEST_P(Textured, MayBeMeasuredWhileTheFileIsMadeReady) {
-    const Folder folder;
-    const std::vector made{textured_torus(60, 40), textured_torus(12, 8, 32, "level 1")};
-    std::vector measured = made, late = made;
-    measured[1].error.mean = measured[1].error.max = 0.25;
-    write_levels(folder / "before.glb", measured, {.compression = GetParam().compression});
-    write_levels(folder / "late.glb", late, {.compression = GetParam().compression, .await_errors = [&] {
-                                                 late[1].error = measured[1].error;
-                                             }});
-    EXPECT_EQ(read_text(folder / "late.glb"), read_text(folder / "before.glb"));
-    const auto fail = [] { throw std::runtime_error("not measured"); };
-    EXPECT_THROW(
-        write_levels(folder / "no.glb", made, {.compression = GetParam().compression, .await_errors = fail}),
-        std::runtime_error);
-    EXPECT_FALSE(std::filesystem::exists(folder / "no.glb"));
-}

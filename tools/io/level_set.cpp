@@ -48,7 +48,8 @@ void join_as_set(std::span<Level> levels) {
         mix(id, level.mesh.positions.data(), level.mesh.positions.size() * sizeof(glm::dvec3));
         mix(id, level.mesh.triangles.data(), level.mesh.triangles.size() * sizeof(Triangle));
     }
-    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].set = {id, unsigned(k), unsigned(levels.size())};
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        levels[k].set = {id, unsigned(k), unsigned(levels.size())};
 }
 
 std::string mark_of(const LevelSet& set) {
@@ -87,7 +88,8 @@ std::vector<std::filesystem::path> levels_beside(const std::filesystem::path& pa
     if (set.level != 0) return found;
     for (unsigned k = 1; k < std::min(set.count, most); ++k) {
         const std::filesystem::path beside = level_path(path, k);
-        if (const LevelSet other = set_of_file(beside); other.id == set.id && other.level == k && other.count == set.count)
+        if (const LevelSet other = set_of_file(beside);
+            other.id == set.id && other.level == k && other.count == set.count)
             found.push_back(beside);
     }
     return found;

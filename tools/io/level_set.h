@@ -1,5 +1,5 @@
-// Levels of one run in files of their own: what the files are called, and the mark in each by which they find one
-// another.
+// Levels of one run in files of their own: what the files are called, and the mark in each by which they find
+// one another.
 #pragma once
 #include <filesystem>
 #include <span>

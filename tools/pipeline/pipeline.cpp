@@ -14,7 +14,8 @@ void check_output(const std::filesystem::path& output, const PipelineOptions& op
         throw std::runtime_error("cannot write '" + output.string() + "': name it " + listed_mesh_endings());
     if (output.extension() != ".glb" && (options.one_file || options.compression != Compression::none))
         throw std::runtime_error("--compress and --levels one-file are for .glb alone: name the output .glb");
-    if (const std::string why = why_not_writable(output.string()); !why.empty()) throw std::runtime_error(why);
+    if (const std::string why = why_not_writable(output.string()); !why.empty())
+        throw std::runtime_error(why);
     if (!options.progressive.empty()) check_pm_output(options.progressive);
 }
 

@@ -90,20 +90,20 @@ Level Run::draft_of(Mesh&& simplified, bool may_move) const {
     if (!options.progressive.empty()) return level;
     if (may_move) fit_outlines(level.mesh, captured);
     WedgeOptions corners;
-    if (options.texture.kind == TextureChoice::Kind::sized) corners.colour = WedgeOptions::any_colour; // the texture has them
+    if (options.texture.kind == TextureChoice::Kind::sized)
+        corners.colour = WedgeOptions::any_colour; // the texture has them
     fit_wedges(level, captured, corners);
     return level;
 }
 
-void Run::add_full() {
-    drafts.push_back({draft_of(Mesh(full.mesh), false), {"--full", true}});
-}
+void Run::add_full() { drafts.push_back({draft_of(Mesh(full.mesh), false), {"--full", true}}); }
 
 /// Made by one run of collapses.
 void Run::add_counted() {
     std::vector<SimplifyTarget> targets = options.targets;
     for (const ErrorLimit& limit : options.max_error)
-        targets.push_back(coarsest_within(full, limit.in_units(full), {.refit = options.progressive.empty()}));
+        targets.push_back(
+            coarsest_within(full, limit.in_units(full), {.refit = options.progressive.empty()}));
     std::vector<Mesh> meshes = options.progressive.empty()
                                    ? simplify_levels(full.mesh, targets, {.checked = &full_check})
                                    : levels_of_one_run(full.mesh, targets, log);
@@ -116,7 +116,8 @@ void Run::add_counted() {
         } else {
             asked = {option_of(targets[k]), keeps(check, targets[k], full_check.triangles)};
             if (!asked.met)
-                note(asked.option + ": no fewer than " + std::to_string(check.triangles) + " triangles can be left");
+                note(asked.option + ": no fewer than " + std::to_string(check.triangles) +
+                     " triangles can be left");
             else if (check.triangles == full_check.triangles && targets[k].value != 1)
                 note(asked.option + ": the full surface has no more than " + std::to_string(check.triangles) +
                      " triangles, so that is what the level is");
@@ -136,7 +137,8 @@ void Run::add_sized(const std::vector<double>& pixels) {
     std::vector<SizedLevel> found = search->coarsest_within(limits);
     for (std::size_t k = 0; k < found.size(); ++k) {
         found[k].level.pixels = widths[k];
-        drafts.push_back({std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k]});
+        drafts.push_back(
+            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k]});
     }
     if (!options.progressive.empty()) bind_to_progressive_mesh();
 }
@@ -155,15 +157,19 @@ void Run::bind_to_progressive_mesh() {
         targets.push_back({Unit::triangles, double(draft.level.mesh.triangles.size())});
     }
     std::vector<Mesh> meshes = levels_of_one_run(full.mesh, targets, log);
-    for (std::size_t k = 0; k < drafts.size(); ++k) drafts[k].level.mesh = std::move(meshes[k]), drafts[k].count = 0;
+    for (std::size_t k = 0; k < drafts.size(); ++k)
+        drafts[k].level.mesh = std::move(meshes[k]), drafts[k].count = 0;
 }
 
-/// Finest first.
+/// Finest first. Of those for sizes on the screen a finer one may have fewer triangles, as errors of fits are
+/// not quite in the order of their counts; then it serves for both.
 void Run::drop_doubles() {
-    std::stable_sort(drafts.begin(), drafts.end(), [](const Draft& a, const Draft& b) {
-        return a.level.mesh.triangles.size() > b.level.mesh.triangles.size();
-    });
-    const bool by_default = options.targets.empty() && options.max_error.empty() && options.pixels.empty() && !options.full;
+    const bool by_default =
+        options.targets.empty() && options.max_error.empty() && options.pixels.empty() && !options.full;
+    if (!by_default)
+        std::stable_sort(drafts.begin(), drafts.end(), [](const Draft& a, const Draft& b) {
+            return a.level.mesh.triangles.size() > b.level.mesh.triangles.size();
+        });
     for (std::size_t k = 1; k < drafts.size();) {
         const double finer = double(drafts[k - 1].level.mesh.triangles.size()),
                      own = double(drafts[k].level.mesh.triangles.size());
@@ -173,7 +179,8 @@ void Run::drop_doubles() {
         }
         note((by_default ? "the level for " + text_of(drafts[k].level.pixels) + " pixels"
                          : "the level of " + drafts[k].asked.option) +
-             " would have " + (own < finer ? "hardly fewer" : "the same") + " triangles as the one before, which serves for both");
+             " would have " + (own < finer ? "hardly fewer" : "no fewer") +
+             " triangles than the one before, which serves for both");
         drafts.erase(drafts.begin() + std::ptrdiff_t(k));
     }
 }
@@ -181,7 +188,8 @@ void Run::drop_doubles() {
 void Run::make_levels() {
     stage("simplifying");
     const Stopwatch watch;
-    const bool by_default = options.targets.empty() && options.max_error.empty() && options.pixels.empty() && !options.full;
+    const bool by_default =
+        options.targets.empty() && options.max_error.empty() && options.pixels.empty() && !options.full;
     const std::vector<double> pixels = by_default ? default_pixels(made.info.n) : options.pixels;
     const bool needs_meter = !pixels.empty() || !options.targets.empty() || !options.max_error.empty() ||
                              options.compression != Compression::none;
@@ -189,7 +197,8 @@ void Run::make_levels() {
     if (options.full) add_full();
     if (!pixels.empty()) add_sized(pixels);
     if (!options.targets.empty() || !options.max_error.empty()) add_counted();
-    if (drafts.size() == std::size_t(options.full) && !options.progressive.empty()) (void)levels_of_one_run(full.mesh, {}, log);
+    if (drafts.size() == std::size_t(options.full) && !options.progressive.empty())
+        (void)levels_of_one_run(full.mesh, {}, log);
     drop_doubles();
     for (std::size_t k = 0; k < drafts.size(); ++k) drafts[k].level.name = level_name(named, k);
     made.seconds.simplify = watch.seconds();
@@ -202,7 +211,8 @@ void Run::texture(Draft& draft) {
 }
 
 void Run::make_textures() {
-    if (options.texture.kind == TextureChoice::Kind::none || options.surface.method == SurfaceMethod::cubes) return;
+    if (options.texture.kind == TextureChoice::Kind::none || options.surface.method == SurfaceMethod::cubes)
+        return;
     stage("baking textures");
     const Stopwatch watch;
     for (Draft& draft : drafts) texture(draft);
@@ -229,8 +239,8 @@ void Run::measure_drafts(const std::vector<std::size_t>& which) {
 std::vector<std::size_t> Run::too_far() const {
     std::vector<std::size_t> found;
     for (std::size_t k = 0; k < drafts.size(); ++k)
-        if (const Draft& draft = drafts[k];
-            draft.limit > 0 && draft.count > 0 && !is_full(draft.level) && draft.level.error.p999 > draft.limit)
+        if (const Draft& draft = drafts[k]; draft.limit > 0 && draft.count > 0 && !is_full(draft.level) &&
+                                            draft.level.error.p999 > draft.limit)
             found.push_back(k);
     return found;
 }
@@ -266,7 +276,8 @@ void Run::measure() {
         made.asked.push_back(draft.asked);
         made.textures.push_back(draft.texture);
         if (!draft.asked.met && draft.limit > 0)
-            note(draft.asked.option + ": the level is farther from the full surface than an eighth of a pixel");
+            note(draft.asked.option +
+                 ": the level is farther from the full surface than an eighth of a pixel");
     }
     join_as_set(made.levels);
     made.seconds.measure = watch.seconds();
@@ -276,12 +287,14 @@ void Run::measure() {
 void Run::remove_left_over(const std::filesystem::path& output, const LevelSet& before) {
     constexpr unsigned looked_for = 16;
     const std::size_t written = options.one_file ? 1 : made.levels.size();
-    for (unsigned k = unsigned(std::max<std::size_t>(written, 1)); k < std::max(before.count, looked_for); ++k) {
+    for (unsigned k = unsigned(std::max<std::size_t>(written, 1)); k < std::max(before.count, looked_for);
+         ++k) {
         const std::filesystem::path file = level_path(output, k);
         std::error_code wrong;
         if (k > 64 || !std::filesystem::exists(file, wrong)) continue;
         const LevelSet set = set_of_file(file);
-        const bool of_that_run = before.count > 0 && set.id == before.id && set.level == k && set.count == before.count;
+        const bool of_that_run =
+            before.count > 0 && set.id == before.id && set.level == k && set.count == before.count;
         if (of_that_run && std::filesystem::remove(file, wrong))
             note("removed " + file.string() + ": it belonged to the levels that were here before");
         else

@@ -11,7 +11,8 @@ namespace glcast {
 
 class Run {
   public:
-    Run(const PipelineOptions& options, const std::filesystem::path& named) : options(options), named(named) {}
+    Run(const PipelineOptions& options, const std::filesystem::path& named)
+        : options(options), named(named) {}
 
     void make_surface(const std::filesystem::path& capture);
     void make_levels(); ///< fitted, finest first, no two alike
@@ -34,7 +35,9 @@ class Run {
         if (options.stage) options.stage(what);
     }
     void note(const std::string& line) { made.notes.push_back(line); }
-    bool is_full(const Level& level) const { return level.mesh.triangles.size() == full.mesh.triangles.size(); }
+    bool is_full(const Level& level) const {
+        return level.mesh.triangles.size() == full.mesh.triangles.size();
+    }
     Level draft_of(Mesh&& simplified, bool may_move) const;
     void add_full();
     void add_counted();

@@ -8,14 +8,14 @@ namespace glcast {
 namespace {
 
 constexpr int default_levels = 4;
-constexpr double pixel_share = 1.0 / 8;     // of a pixel: the error of a level
-constexpr std::size_t fewest = 4;           // triangles of a closed mesh
-constexpr double first_count = 65'536;      // triangles; sketches go down from here
-constexpr double sketch_step = 4;           // of counts
-constexpr double sketch_close_enough = 1.4; // of counts between which a limit lies
-constexpr double fit_gains = 1.6;           // the error of what is not fitted, of what is
-constexpr double margin = 0.93;             // of the limit: an estimate is no certificate
-constexpr double far_within = 0.6;          // of the limit
+constexpr double pixel_share = 1.0 / 8;            // of a pixel: the error of a level
+constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
+constexpr double first_count = 65'536;             // triangles; sketches go down from here
+constexpr double sketch_step = 4;                  // of counts
+constexpr double sketch_close_enough = 1.4;        // of counts between which a limit lies
+constexpr double fit_gains = 1.1;                  // the 99.9 % error of what is not fitted, of what is
+constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
+constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
 
@@ -79,19 +79,18 @@ double LevelSearch::sketched(double limit) const {
     return low.count * std::pow(high.count / low.count, std::clamp(share, 0.0, 1.0));
 }
 
-SizedLevel LevelSearch::make(std::size_t count) const {
-    return {finish(simplification.level(count)), count};
-}
+SizedLevel LevelSearch::make(std::size_t count) const { return {finish(simplification.level(count)), count}; }
 
-/// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far within that
-/// one more try is worth it.
+/// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
+/// within that one more try is worth it.
 SizedLevel LevelSearch::search(double limit) const {
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
     for (double count = std::max(sketched(limit * fit_gains), least);;) {
         SizedLevel tried = make(std::size_t(std::min(count, double(all))));
-        if (tried.level.mesh.triangles.size() >= all) return found.count ? std::move(found) : std::move(tried);
+        if (tried.level.mesh.triangles.size() >= all)
+            return found.count ? std::move(found) : std::move(tried);
         const double error = meter.glance(tried.level), share = error / (margin * limit);
         if (share > 1) {
             if (found.count) return found;

@@ -12,8 +12,8 @@ namespace glcast {
 /// Widths in pixels that the levels of default are for: n / 2, n / 4, n / 8, n / 16.
 std::vector<double> default_pixels(int n);
 
-/// How far 99.9 % of a level may be from the full surface, both ways, where the capture's n samples are drawn `pixels`
-/// wide: an eighth of a pixel, in samples. 2^k / 4 at n / 2^(k+1) pixels.
+/// How far 99.9 % of a level may be from the full surface, both ways, where the capture's n samples are drawn
+/// `pixels` wide: an eighth of a pixel, in samples. 2^k / 4 at n / 2^(k+1) pixels.
 double error_within(double pixels, int n);
 
 /// A level as a file will have it, but for its texture: made of what a count leaves.
@@ -24,16 +24,16 @@ struct SizedLevel {
     std::size_t count = 0; ///< triangles that were asked of the simplification
 };
 
-/// Looks for levels by the count of their triangles. Errors of some counts are estimated before any is fitted, as
-/// that costs little; what they tell gives the counts that are tried.
+/// Looks for levels by the count of their triangles. Errors of some counts are estimated before any is
+/// fitted, as that costs little; what they tell gives the counts that are tried.
 class LevelSearch {
   public:
     /// All must outlive it. `finish` may run on several threads at once.
     LevelSearch(Simplification& simplification, const LevelMeter& meter, std::size_t all, FinishLevel finish)
         : simplification(simplification), meter(meter), all(all), finish(std::move(finish)) {}
 
-    /// For each limit (model units, ascending) the coarsest level, to some 15 % of its triangles, 99.9 % of which are within
-    /// it, by estimate (LevelMeter::glance). The full surface where none is.
+    /// For each limit (model units, ascending) the coarsest level, to some 15 % of its triangles, 99.9 % of
+    /// which are within it, by estimate (LevelMeter::glance). The full surface where none is.
     std::vector<SizedLevel> coarsest_within(const std::vector<double>& limits);
 
     /// One with a few more triangles, for one that turned out to be too coarse; the full surface at last.

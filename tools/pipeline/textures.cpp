@@ -15,8 +15,8 @@ namespace glcast {
 namespace {
 
 constexpr std::size_t points = 20'000;
-/// Light that a normal changes, of the change of the normal: a lamp of .45 at the viewer, one of .25 a third of a right angle
-/// beside it, seen from anywhere.
+/// Light that a normal changes, of the change of the normal: a lamp of .45 at the viewer, one of .25 a third
+/// of a right angle beside it, seen from anywhere.
 constexpr float light_of_normal = 0.37f;
 /// More is visible: with an outline that is right this leaves 43 dB of a picture that the object fills.
 constexpr double visible = 0.007;
@@ -24,7 +24,8 @@ constexpr double visible = 0.007;
 double squared_difference(const Shown& shown, const CapturedPoint& captured, float brightest) {
     const glm::vec3 colour = shown.colour - captured.colour;
     // A normal that faces away is lit from behind, by either.
-    const float turned = std::min(glm::distance(shown.normal, captured.normal), glm::distance(shown.normal, -captured.normal));
+    const float turned =
+        std::min(glm::distance(shown.normal, captured.normal), glm::distance(shown.normal, -captured.normal));
     const float light = light_of_normal * brightest * turned;
     return double(glm::dot(colour, colour) / 3 + light * light);
 }
@@ -53,7 +54,8 @@ double shown_error(const Level& level, const CapturedSurface& captured) {
         const CapturedPoint seen = captured.look(samples[i].position, facing, facing, reach);
         if (!seen.found) return;
         const float brightest = std::max({seen.colour.x, seen.colour.y, seen.colour.z});
-        squares[i] = squared_difference(shown(level, samples[i].triangle, samples[i].weights), seen, brightest);
+        squares[i] =
+            squared_difference(shown(level, samples[i].triangle, samples[i].weights), seen, brightest);
     });
     std::erase(squares, -1);
     double sum = 0;
@@ -61,8 +63,8 @@ double shown_error(const Level& level, const CapturedSurface& captured) {
     return squares.empty() ? 0 : std::sqrt(sum / double(squares.size()));
 }
 
-std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& captured, const TextureChoice& choice,
-                                           std::string& why_not) {
+std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& captured,
+                                           const TextureChoice& choice, std::string& why_not) {
     using Kind = TextureChoice::Kind;
     if (choice.kind == Kind::none) return {};
     if (choice.kind == Kind::by_need && shown_error(level, captured) <= visible) return {};
@@ -70,7 +72,8 @@ std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& 
     if (choice.kind == Kind::by_need) {
         options.size = largest_texture / 2;
         options.smallest = true;
-        if (level.pixels > 0) options.texels_per_sample = std::min(1.0, 2 * level.pixels / captured.resolution());
+        if (level.pixels > 0)
+            options.texels_per_sample = std::min(1.0, 2 * level.pixels / captured.resolution());
     } else
         options.size = choice.size;
     try {
