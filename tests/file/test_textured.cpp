@@ -93,7 +93,7 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
 TEST_P(TexturedInOrder, CornersKeepTheirValues) {
     const Folder folder;
     const Level level = textured_torus(30, 20);
-    write_levels(folder / "t.glb", std::vector{level}, {.compression = GetParam().compression}, {.one_file = true});
+    write_levels(folder / "t.glb", std::vector{level}, {.compression = GetParam().compression});
     const Level read = read_levels(folder / "t.glb").at(0);
     ASSERT_EQ(read.mesh.triangles, level.mesh.triangles);
     for (std::size_t v = 0; v < level.mesh.positions.size(); ++v) {
