@@ -33,7 +33,8 @@ EXAMPLES = {
          "glcast render gears.glb -o gears.png"),
     ],
     "glcast mesh": [
-        ("The surface with two levels of detail:", "glcast mesh gears.exr -o gears.glb"),
+        ("Levels for an object 256, 128, 64 and 32 pixels wide (n = 512):", "glcast mesh gears.exr -o gears.glb"),
+        ("The full surface:", "glcast mesh gears.exr -o gears.glb --full"),
         ("Levels of at most so many triangles:", "glcast mesh gears.exr -o gears.glb --triangles 10000,500"),
     ],
     "glcast refine": [

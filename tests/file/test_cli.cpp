@@ -24,7 +24,13 @@ class Command : public testing::Test {
 TEST_F(Command, MeshInfoCompareRender) {
     const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb"));
     EXPECT_EQ(made["n"], 48);
-    EXPECT_GE(made["levels"].size(), 2u);
+    ASSERT_EQ(made["levels"].size(), 4u) << "for 24, 12, 6 and 3 pixels";
+    double pixels = 24, limit = 0.25; // samples
+    for (const Json& level : made["levels"]) {
+        EXPECT_LE(level["p999ErrorSamples"], limit);
+        EXPECT_EQ(level["pixels"], pixels);
+        pixels /= 2, limit *= 2;
+    }
     for (const Json& level : made["levels"]) {
         EXPECT_TRUE(level["closedManifold"]);
         EXPECT_EQ(level["euler"], 2);
@@ -33,11 +39,15 @@ TEST_F(Command, MeshInfoCompareRender) {
     EXPECT_EQ(made["files"][0]["bytes"], std::filesystem::file_size(file("s.glb")));
     EXPECT_LT(made["levels"][1]["triangles"], made["levels"][0]["triangles"]);
     EXPECT_GT(made["levels"][1]["maxError"], 0);
+    EXPECT_LT(made["levels"][0]["triangles"], made["fullTriangles"].get<int>() / 10);
+    EXPECT_EQ(made["files"][3]["path"], file("s_LOD3.glb"));
 
     const Json mesh = json_of("info " + file("s.glb"));
     EXPECT_EQ(mesh["kind"], "mesh");
     const double volume = 4.0 / 3 * M_PI * 1.2 * 1.2 * 1.2; // radius 0.4 of a box of 3
     EXPECT_NEAR(mesh["levels"][0]["volume"].get<double>(), volume, volume * 0.01);
+    ASSERT_EQ(mesh["levels"].size(), 4u) << "those beside it too";
+    EXPECT_EQ(mesh["levels"][3]["name"], "s_LOD3");
 
     ASSERT_EQ(glcast_run("mesh " + file("s.exr") + " -o " + file("s.ply")).status, 0);
     const Json same = json_of("compare " + file("s.glb") + " " + file("s.ply"));
@@ -60,16 +70,16 @@ TEST_F(Command, ValidatorFindsNothingInACast) {
 TEST_F(Command, TexturesOfEveryLevelThatIsWritten) {
     const std::string mesh = "mesh " + file("s.exr") + " --texture 128 --triangles 400,100 -o ";
     const Json glb = json_of(mesh + file("s.glb"));
-    EXPECT_EQ(glb["levels"].size(), 3u) << "the full surface first";
+    EXPECT_EQ(glb["levels"].size(), 2u) << "what was asked for and nothing else";
     for (const char* name : {"s.ply", "s.obj"}) {
         const Json json = json_of(mesh + file(name));
         ASSERT_EQ(json["levels"].size(), 2u) << name;
         for (std::size_t k = 0; k < 2; ++k) {
             EXPECT_LE(json["levels"][k]["triangles"], k ? 100 : 400);
-            EXPECT_EQ(json["levels"][k]["texture"], glb["levels"][k + 1]["texture"]) << name;
+            EXPECT_EQ(json["levels"][k]["texture"], glb["levels"][k]["texture"]) << name;
         }
     }
-    for (const char* name : {"s.colour.png", "s.lod1.colour.png", "s.mtl", "s.lod1.mtl"})
+    for (const char* name : {"s.colour.png", "s_LOD1.colour.png", "s.mtl", "s_LOD1.mtl"})
         EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
     const Ran ran = run("node " GLCAST_VALIDATE " " + file("s.glb"));
     EXPECT_EQ(ran.status, 0) << ran.output;
@@ -90,18 +100,19 @@ TEST_F(Command, InfoOfACapture) {
 
 TEST_F(Command, TargetsAreKept) {
     const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb") + " --edges 1500,300");
-    ASSERT_EQ(made["levels"].size(), 3u) << "the full surface and two targets";
-    EXPECT_LE(made["levels"][1]["edges"], 1500);
-    EXPECT_LE(made["levels"][2]["edges"], 300);
+    ASSERT_EQ(made["levels"].size(), 2u) << "two targets and nothing else";
+    EXPECT_LE(made["levels"][0]["edges"], 1500);
+    EXPECT_LE(made["levels"][1]["edges"], 300);
     const Json alone = json_of("mesh " + file("s.exr") + " -o " + file("s.obj") + " --edges 300,1500");
     ASSERT_EQ(alone["levels"].size(), 2u) << "one file per target, finest first";
     EXPECT_LE(check_mesh(read_mesh(file("s.obj"))).edges, 1500u);
-    EXPECT_LE(check_mesh(read_mesh(file("s.lod1.obj"))).edges, 300u);
+    EXPECT_LE(check_mesh(read_mesh(file("s_LOD1.obj"))).edges, 300u);
 }
 
 TEST_F(Command, CubesMethod) {
-    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.off") + " --method cubes");
+    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.off") + " --method cubes --full");
     ASSERT_EQ(made["levels"].size(), 1u);
+    EXPECT_EQ(made["levels"][0]["triangles"], made["fullTriangles"]);
     EXPECT_TRUE(made["levels"][0]["closedManifold"]);
 }
 
@@ -174,8 +185,8 @@ TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {
     const double sample = 3.0 / 24, diagonal = 2 * 1.2 * std::sqrt(3.0); // of the sphere's box
     const auto level_of = [&](const std::string& limit) {
         const Json made = json_of("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + limit);
-        EXPECT_EQ(made["levels"].size(), 2u) << limit;
-        return made["levels"][1];
+        EXPECT_EQ(made["levels"].size(), 1u) << limit;
+        return made["levels"][0];
     };
     const Json half = level_of("0.5"), coarse = level_of("1");
     EXPECT_LE(half["maxErrorSamples"], 0.5);
@@ -186,11 +197,47 @@ TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {
     const int fewer = half["triangles"].get<int>() * 4 / 5;
     const Json below =
         json_of("mesh " + file("s.exr") + " -o " + file("f.glb") + " --triangles " + std::to_string(fewer));
-    EXPECT_GT(below["levels"][1]["maxErrorSamples"], 0.5);
+    EXPECT_GT(below["levels"][0]["maxErrorSamples"], 0.5);
     // The same limit as a part of the diagonal.
     EXPECT_NEAR(level_of(std::to_string(100 * 0.5 * sample / diagonal) + "%")["triangles"].get<double>(),
                 half["triangles"].get<double>(), half["triangles"].get<double>() * 0.1);
     for (const char* wrong : {"0", "-1", "x", "1k", "nan"})
         expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + wrong), 2,
                         "is no error");
+}
+
+TEST_F(Command, WhatCannotBeMetIsSaid) {
+    const std::string mesh = "mesh " + file("s.exr") + " -o " + file("s.glb");
+    const Json above = json_of(mesh + " --triangles 10000000");
+    ASSERT_EQ(above["levels"].size(), 1u);
+    EXPECT_EQ(above["levels"][0]["triangles"], above["fullTriangles"]);
+    ASSERT_EQ(above["notes"].size(), 1u);
+    EXPECT_NE(above["notes"][0].get<std::string>().find("the full surface has no more"), std::string::npos);
+    const Json twice = json_of(mesh + " --full --ratio 1");
+    EXPECT_EQ(twice["levels"].size(), 1u) << "no level twice";
+    EXPECT_EQ(twice["notes"].size(), 1u);
+}
+
+TEST_F(Command, PixelsAskForLevels) {
+    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb") + " --pixels 6,24 --levels one-file");
+    ASSERT_EQ(made["levels"].size(), 2u);
+    EXPECT_EQ(made["files"].size(), 1u);
+    EXPECT_EQ(made["levels"][0]["asked"], "--pixels 24");
+    EXPECT_LE(made["levels"][0]["p999ErrorSamples"], 0.25);
+    EXPECT_LE(made["levels"][1]["p999ErrorSamples"], 1.0);
+    EXPECT_EQ(read_levels(file("s.glb")).size(), 2u);
+}
+
+TEST_F(Command, LevelsOfAnEarlierRunGoWithIt) {
+    const std::string mesh = "mesh " + file("s.exr") + " -o " + file("s.glb");
+    ASSERT_EQ(glcast_run(mesh + " --triangles 400,200,100").status, 0);
+    ASSERT_TRUE(std::filesystem::exists(file("s_LOD2.glb")));
+    write_text(file("s_LOD3.glb"), "not ours");
+    const Ran ran = glcast_run(mesh + " --triangles 400");
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    EXPECT_FALSE(std::filesystem::exists(file("s_LOD1.glb")));
+    EXPECT_FALSE(std::filesystem::exists(file("s_LOD2.glb")));
+    EXPECT_EQ(read_text(file("s_LOD3.glb")), "not ours");
+    EXPECT_NE(ran.output.find("removed"), std::string::npos);
+    EXPECT_NE(ran.output.find("is not of this run"), std::string::npos);
 }

@@ -87,17 +87,18 @@ TEST_F(Interrupt, AtEveryStageNothingIsLeft) {
     for (const bool without_tmpfile : {false, true})
         for (const char* stage : {"reading", "making the surface", "simplifying", "measuring", "writing"}) {
             const int signal = stage[0] == 'm' ? SIGTERM : SIGINT;
-            const OnTerminal ran = on_terminal({"mesh", file("s.exr"), "-o", file("o.glb")}, stage, signal,
+            const OnTerminal ran = on_terminal({"mesh", file("s.exr"), "-o", file("o.glb"), "--full"}, stage, signal,
                                                {.without_tmpfile = without_tmpfile, .halted = true});
             EXPECT_TRUE(interrupted(ran, signal, {"o.glb"})) << stage << ": not ended\n" << ran.output;
         }
 }
 
 TEST_F(Interrupt, WhileFilesAreWrittenAllOrNothingIsLeft) {
-    const std::vector<std::vector<std::string>> outputs = {{"o.glb"}, {"o.lod1.obj", "o.obj"}, {"o.lod1.ply", "o.ply"}};
+    const std::vector<std::vector<std::string>> outputs = {
+        {"o.glb", "o_LOD1.glb"}, {"o.obj", "o_LOD1.obj"}, {"o.ply", "o_LOD1.ply"}};
     for (const auto& names : outputs)
         for (const char* stage : {"measuring", "writing"})
-            interrupted(on_terminal({"mesh", file("s.exr"), "-o", file(names.back()), "--ratio", "0.2,0.1"}, stage,
+            interrupted(on_terminal({"mesh", file("s.exr"), "-o", file(names.front()), "--ratio", "0.2,0.1"}, stage,
                                     SIGINT, {.without_tmpfile = true}),
                         SIGINT, names);
 }

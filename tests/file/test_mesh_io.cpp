@@ -127,7 +127,7 @@ TEST(Glb, LevelsErrorsAndSample) {
     const Folder folder;
     const std::vector levels{level_of(torus(40, 30), "level 0"), level_of(torus(20, 15), "level 1", 0.01),
                              level_of(torus(8, 6), "level 2", 0.04)};
-    write_levels(folder / "l.glb", levels);
+    write_levels(folder / "l.glb", levels, {.one_file = true});
     const std::vector<Level> read = read_levels(folder / "l.glb");
     ASSERT_EQ(read.size(), 3u);
     for (int k = 0; k < 3; ++k) {
@@ -142,7 +142,7 @@ TEST(Glb, LevelsErrorsAndSample) {
 TEST(Glb, ManyVerticesNeedWideIndices) {
     const Folder folder;
     const Mesh mesh = torus(300, 220); // 66,000 vertices
-    write_levels(folder / "m.glb", std::vector{level_of(mesh, "level 0")});
+    write_levels(folder / "m.glb", std::vector{level_of(mesh, "level 0")}, {.one_file = true});
     EXPECT_EQ(read_mesh(folder / "m.glb").triangles, mesh.triangles);
 }
 
@@ -151,12 +151,12 @@ TEST(Glb, KhronosValidatorFindsNothing) {
     const Mesh small = torus(12, 9);
     Mesh bare = tetrahedron();
     bare.normals.clear(), bare.colours.clear();
-    write_levels(folder / "one.glb", std::vector{level_of(small, "level 0")});
+    write_levels(folder / "one.glb", std::vector{level_of(small, "level 0")}, {.one_file = true});
     write_levels(folder / "three.glb",
                  std::vector{level_of(torus(300, 220), "level 0"), level_of(small, "level 1", 0.1),
-                             level_of(tetrahedron(), "level 2", 0.3)});
-    write_levels(folder / "far.glb", std::vector{level_of(moved(small, {5e5, 0, -3e6}), "level 0")});
-    write_levels(folder / "bare.glb", std::vector{level_of(bare, "level 0")});
+                             level_of(tetrahedron(), "level 2", 0.3)}, {.one_file = true});
+    write_levels(folder / "far.glb", std::vector{level_of(moved(small, {5e5, 0, -3e6}), "level 0")}, {.one_file = true});
+    write_levels(folder / "bare.glb", std::vector{level_of(bare, "level 0")}, {.one_file = true});
     const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
     EXPECT_EQ(ran.status, 0) << ran.output;
 }
@@ -165,8 +165,8 @@ TEST(Levels, OtherFormatsGetAFileEach) {
     const Folder folder;
     const std::vector levels{level_of(torus(20, 15), "level 0"), level_of(torus(8, 6), "level 1", 0.1)};
     write_levels(folder / "t.ply", levels);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"t.lod1.ply", "t.ply"}));
-    EXPECT_EQ(read_mesh(folder / "t.lod1.ply").triangles.size(), 96u);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"t.ply", "t_LOD1.ply"}));
+    EXPECT_EQ(read_mesh(folder / "t_LOD1.ply").triangles.size(), 96u);
 }
 
 TEST(Obj, WhatOthersWrite) {

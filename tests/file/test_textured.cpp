@@ -9,6 +9,7 @@
 #include "tests/file/textured_torus.h"
 #include "tools/io/glb_container.h"
 #include "tools/io/glb_extras.h"
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_io.h"
 #include "tools/mesh/check.h"
 #include "tools/mesh/error_names.h"
@@ -75,7 +76,7 @@ TEST_P(Textured, ComesBackAsTheTwoManifoldItWas) {
                     volatile float stored = float(p[c]); // GCC 12 leaves the way there and back out
                     p[c] = stored;
                 }
-    write_levels(folder / "t.glb", levels, {.compression = GetParam().compression});
+    write_levels(folder / "t.glb", levels, {.compression = GetParam().compression, .one_file = true});
     const std::vector<Level> read = read_levels(folder / "t.glb");
     ASSERT_EQ(read.size(), 2u);
     for (int k = 0; k < 2; ++k) {
@@ -118,8 +119,8 @@ TEST(TexturedGlb, TheSameBytesEachTime) {
     const Folder folder;
     const std::vector levels{textured_torus(30, 20)};
     for (const Compression compression : all) {
-        write_levels(folder / "a.glb", levels, {.compression = compression});
-        write_levels(folder / "b.glb", levels, {.compression = compression});
+        write_levels(folder / "a.glb", levels, {.compression = compression, .one_file = true});
+        write_levels(folder / "b.glb", levels, {.compression = compression, .one_file = true});
         EXPECT_EQ(read_text(folder / "a.glb"), read_text(folder / "b.glb"));
     }
 }
@@ -131,17 +132,17 @@ TEST(TexturedGlb, KhronosValidatorFindsNothing) {
     int k = 0;
     for (const Compression compression : all) {
         write_levels(folder / ("t" + std::to_string(k) + ".glb"), levels,
-                     {.compression = compression, .split = true});
-        write_levels(folder / ("b" + std::to_string(k++) + ".glb"), bare, {.compression = compression});
+                     {.compression = compression});
+        write_levels(folder / ("b" + std::to_string(k++) + ".glb"), bare, {.compression = compression, .one_file = true});
     }
-    ASSERT_EQ(folder.names().size(), 12u);
+    ASSERT_EQ(folder.names().size(), 9u);
     const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
     EXPECT_EQ(ran.status, 0) << ran.output;
 }
 
 TEST(TexturedGlb, SeamsThatDoNotHoldAreLeftOpen) {
     const Folder folder;
-    write_levels(folder / "t.glb", std::vector{textured_torus(12, 8)});
+    write_levels(folder / "t.glb", std::vector{textured_torus(12, 8)}, {.one_file = true});
     const std::string file = read_text(folder / "t.glb");
     format::GlbChunks chunks = format::glb_chunks(file);
     for (const int accessor : {0, 1, 4, 99, -1}) {
@@ -166,8 +167,8 @@ TEST(Rounding, WhatIsRoundedIsWhatTheFileHolds) {
     const Folder folder;
     std::vector levels{textured_torus(60, 40), textured_torus(12, 8, 32, "level 1")};
     round_levels(levels, Compression::quantize);
-    write_levels(folder / "t.glb", levels, {.compression = Compression::quantize, .split = true});
-    for (const char* name : {"t.glb", "t.lod1.glb"}) {
+    write_levels(folder / "t.glb", levels, {.compression = Compression::quantize});
+    for (const char* name : {"t_LOD1.glb"}) {
         const Level read = read_levels(folder / name).back();
         for (std::size_t v = 0; v < read.mesh.positions.size(); ++v)
             ASSERT_LE(glm::length(read.mesh.positions[v] - levels[1].mesh.positions[v]), 1e-14) << name;
@@ -180,7 +181,7 @@ TEST(Rounding, NoTwoVerticesComeToOnePlace) {
     std::vector levels{Level{joined(small, torus(60, 40), {}), "level 0"}};
     for (const Compression compression : {Compression::quantize, Compression::meshopt}) {
         const Folder folder;
-        write_levels(folder / "t.glb", levels, {.compression = compression});
+        write_levels(folder / "t.glb", levels, {.compression = compression, .one_file = true});
         const Mesh read = read_mesh(folder / "t.glb");
         std::set<std::array<double, 3>> places;
         for (const glm::dvec3& p : read.positions) places.insert({p.x, p.y, p.z});
@@ -195,7 +196,7 @@ TEST(Extras, EveryErrorComesBack) {
     double value = 0.125;
     for (const ErrorName& e : error_names) levels[0].error.*e.value = value *= 1.5;
     for (const Compression compression : all) {
-        write_levels(folder / "t.glb", levels, {.compression = compression});
+        write_levels(folder / "t.glb", levels, {.compression = compression, .one_file = true});
         const Level read = read_levels(folder / "t.glb").at(0);
         for (const ErrorName& e : error_names)
             EXPECT_EQ(read.error.*e.value, levels[0].error.*e.value) << e.name;
@@ -214,14 +215,45 @@ TEST(ScreenCoverage, ALevelIsDrawnWhileItsErrorIsUnderAPixel) {
     EXPECT_EQ(coverage[2], 0);
 }
 
-TEST(Split, AFileForEachLevelBesideAllInOne) {
+TEST(Files, AFileForEachLevel) {
     const Folder folder;
     const std::vector levels{textured_torus(20, 15), textured_torus(8, 6, 32, "level 1")};
-    EXPECT_EQ(write_levels(folder / "t.glb", levels, {.split = true}).front(), folder / "t.glb");
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"t.glb", "t.lod0.glb", "t.lod1.glb"}));
-    EXPECT_EQ(read_levels(folder / "t.lod1.glb").size(), 1u);
-    EXPECT_EQ(read_mesh(folder / "t.lod1.glb").triangles.size(), 96u);
-    EXPECT_THROW(write_levels(folder / "t.obj", levels, {.split = true}), std::runtime_error);
+    EXPECT_EQ(write_levels(folder / "t.glb", levels),
+              (std::vector<std::filesystem::path>{folder / "t.glb", folder / "t_LOD1.glb"}));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"t.glb", "t_LOD1.glb"}));
+    for (const char* name : {"t.glb", "t_LOD1.glb"}) {
+        const std::string file = read_text(folder / name);
+        const auto json = format::glb_chunks(file).json;
+        EXPECT_EQ(json["meshes"].size(), 1u) << name;
+        EXPECT_EQ(json["nodes"].size(), 1u) << name;
+        EXPECT_FALSE(json.contains("extensionsUsed")) << name;
+    }
+    EXPECT_EQ(read_mesh(folder / "t_LOD1.glb").triangles.size(), 96u);
+    EXPECT_THROW(write_levels(folder / "t.obj", levels, {.one_file = true}), std::runtime_error);
+    write_levels(folder / "one.glb", levels, {.one_file = true});
+    EXPECT_EQ(read_levels(folder / "one.glb").size(), 2u);
+}
+
+TEST(Files, LevelsOfASetFindOneAnother) {
+    for (const char* ending : {".glb", ".obj", ".ply"}) {
+        const Folder folder;
+        const std::filesystem::path file = folder / (std::string("t") + ending);
+        std::vector levels{Level{torus(20, 15), "t_LOD0"}, Level{torus(12, 8), "t_LOD1"}, Level{torus(8, 6), "t_LOD2"}};
+        join_as_set(levels);
+        write_levels(file, levels);
+        const std::vector<Level> all = read_all_levels(file);
+        ASSERT_EQ(all.size(), 3u) << ending;
+        EXPECT_EQ(all[2].mesh.triangles.size(), 96u);
+        EXPECT_EQ(read_levels(file).size(), 1u);
+        EXPECT_EQ(read_all_levels(folder / (std::string("t_LOD1") + ending)).size(), 1u) << "a level alone is asked for";
+        // What only has the name is not of the set.
+        std::vector other{Level{torus(10, 9), "x"}};
+        write_levels(folder / (std::string("t_LOD1") + ending), other);
+        EXPECT_EQ(read_all_levels(file).size(), 2u) << ending;
+        std::vector changed{Level{torus(20, 15), "t_LOD0"}, Level{torus(10, 8), "t_LOD1"}};
+        join_as_set(changed);
+        EXPECT_NE(changed[0].set.id, levels[0].set.id);
+    }
 }
 
 TEST(TexturedObj, MaterialAndPicturesAppearWithIt) {
@@ -246,19 +278,3 @@ TEST(TexturedPly, CoordinatesOfCornersAndAPicture) {
     EXPECT_EQ(read_mesh(folder / "t.ply").triangles, level.mesh.triangles);
 }
 
-TEST_P(Textured, MayBeMeasuredWhileTheFileIsMadeReady) {
-    const Folder folder;
-    const std::vector made{textured_torus(60, 40), textured_torus(12, 8, 32, "level 1")};
-    std::vector measured = made, late = made;
-    measured[1].error.mean = measured[1].error.max = 0.25;
-    write_levels(folder / "before.glb", measured, {.compression = GetParam().compression});
-    write_levels(folder / "late.glb", late, {.compression = GetParam().compression, .await_errors = [&] {
-                                                 late[1].error = measured[1].error;
-                                             }});
-    EXPECT_EQ(read_text(folder / "late.glb"), read_text(folder / "before.glb"));
-    const auto fail = [] { throw std::runtime_error("not measured"); };
-    EXPECT_THROW(
-        write_levels(folder / "no.glb", made, {.compression = GetParam().compression, .await_errors = fail}),
-        std::runtime_error);
-    EXPECT_FALSE(std::filesystem::exists(folder / "no.glb"));
-}

@@ -56,13 +56,13 @@ Cast cast_program(const RealProgram& program) {
     cast.name = program.name;
     auto environment = program.environment;
     environment.emplace_back("PATH", std::string("/usr/bin:") + std::getenv("PATH"));
-    std::vector<std::string> make_mesh = {GLCAST, "mesh", capture, "-o", mesh};
-    if (!program.levels) {
-        make_mesh.insert(make_mesh.end(), {"--ratio", "1"});
+    std::vector<std::string> make_mesh = {GLCAST, "mesh", capture, "-o", mesh, "--full", "--texture", "none"};
+    if (program.levels) {
+        make_mesh.insert(make_mesh.end(), {"--ratio", "0.1,0.01"});
     }
     if (!step(capture_command(program, capture), capture_limit_seconds, cast.error, nullptr, environment) ||
         !step(make_mesh, tool_limit_seconds, cast.error) ||
-        !step({GLCAST, "mesh", capture, "-o", plain, "--ratio", "1"}, tool_limit_seconds, cast.error) ||
+        !step({GLCAST, "mesh", capture, "-o", plain, "--full"}, tool_limit_seconds, cast.error) ||
         !step({GLCAST, "render", mesh, "-o", picture}, tool_limit_seconds, cast.error)) {
         return cast;
     }

@@ -32,7 +32,7 @@ struct Side {
 };
 
 Side read_side(const std::string& file, std::size_t wanted) {
-    std::vector<Level> levels = read_levels(file);
+    std::vector<Level> levels = read_all_levels(file);
     if (wanted >= levels.size())
         throw std::runtime_error("'" + file + "' has " + std::to_string(levels.size()) +
                                  " level(s), no level " + std::to_string(wanted));

@@ -142,7 +142,7 @@ int info(const Options& options) {
         return 0;
     }
     if (looks_like_progressive(options.file)) return progressive_info(options.file, options.json);
-    const std::vector<Level> levels = read_levels(options.file);
+    const std::vector<Level> levels = read_all_levels(options.file);
     Json json = {
         {"file", options.file}, {"kind", "mesh"}, {"bytes", std::filesystem::file_size(options.file)}};
     std::vector<MeshCheck> checks;

@@ -5,6 +5,8 @@
 #include "tools/cli/command.h"
 #include "tools/cli/texture.h"
 #include "tools/pipeline/pipeline.h"
+#include "tools/words/closing.h"
+#include "tools/words/text.h"
 
 namespace glcast::cli {
 namespace {
@@ -15,11 +17,10 @@ using Unit = SimplifyTarget::Unit;
 struct Options {
     std::string capture, output, pm, method = "contour", exterior = "layers", normals = "drawn";
     double close_gaps = 1, sheet_thickness = 0.1;
-    std::vector<double> edges, triangles, ratio;
+    std::vector<double> pixels, edges, triangles, ratio;
     std::vector<std::string> max_error;
-    int texture = 0; ///< texels along an edge; 0: none
-    std::string compress = "none", units; ///< none said: millimetres
-    bool split = false, check = false, json = false, verbose = false;
+    std::string texture = "auto", compress = "none", levels = "files", units; ///< units: none said: millimetres
+    bool full = false, check = false, json = false, verbose = false;
     bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it starts a program
 };
 
@@ -47,26 +48,31 @@ PipelineOptions how_to(const Options& options) {
     for (double t : options.triangles) how.targets.push_back({Unit::triangles, t});
     for (double r : options.ratio) how.targets.push_back({Unit::ratio, r});
     for (const std::string& limit : options.max_error) how.max_error.push_back(parse_error_limit(limit));
-    how.texture = options.texture;
+    how.pixels = options.pixels;
+    how.full = options.full;
+    how.texture = texture_choice(options.texture);
     how.compression = compression(options);
     if (!options.units.empty()) how.units = length_unit(options.units);
-    how.split = options.split;
+    how.one_file = options.levels == "one-file";
     how.progressive = options.pm;
     how.check = options.check ? CheckDepth::everything : CheckDepth::topology;
     how.stage = progress_of_stages();
     return how;
 }
 
-Json describe_level(const MeshedCapture& made, std::size_t k) {
+Json describe_level(const Options& options, const MeshedCapture& made, std::size_t k) {
     const Level& level = made.levels[k];
     Json json = to_json(made.checks[k]);
     json["name"] = level.name;
-    json["file"] = made.files[made.files[0].extension() == ".glb" ? 0 : k].string();
+    json["file"] = made.files[options.levels == "files" ? k : 0].string();
+    json["asked"] = made.asked[k].option;
+    json["met"] = made.asked[k].met;
+    if (level.pixels > 0) json["pixels"] = level.pixels;
     json.update(to_json(level.error));
     json["meanErrorSamples"] = level.error.mean / made.sample;
     json["p999ErrorSamples"] = level.error.p999 / made.sample;
     json["maxErrorSamples"] = level.error.max / made.sample;
-    if (!made.textures.empty()) json["texture"] = to_json(made.textures[k]);
+    if (made.textures[k]) json["texture"] = to_json(*made.textures[k]);
     return json;
 }
 
@@ -77,12 +83,14 @@ void print_made(const Options& options, const MeshedCapture& made) {
     Json json = {{"capture", options.capture},
                  {"n", made.info.n},
                  {"sample", made.sample},
-                 {"method", options.method}};
+                 {"method", options.method},
+                 {"fullTriangles", made.full_triangles},
+                 {"notes", made.notes}};
     for (const auto& file : made.files)
         json["files"].push_back({{"path", file.string()}, {"bytes", std::filesystem::file_size(file)}});
     if (!options.pm.empty())
         json["files"].push_back({{"path", options.pm}, {"bytes", std::filesystem::file_size(options.pm)}});
-    for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(made, k));
+    for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(options, made, k));
     json["surface"] = {{"exterior", exterior_name(r.exterior)},
                        {"layers", layers_name(made.info.layers)},
                        {"filledSamples", r.filled_samples},
@@ -103,27 +111,38 @@ void print_made(const Options& options, const MeshedCapture& made) {
     print_json(json);
 }
 
-void say_made(const Options& options, const MeshedCapture& made) {
-    const ReconstructReport& r = made.surface;
+/// Each level and each file, with their figures.
+void say_figures(const Options& options, const MeshedCapture& made) {
     say(options.capture + ": n = " + std::to_string(made.info.n) + ", sample " + number(made.sample) + ", " +
-        number(100 * r.unsupported_area_share) + " % of the surface seen by no ray");
-    if (r.exterior == ExteriorRule::axes && options.exterior == "layers")
-        say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
-            "): cavities that no axis looks into are filled; capture again with --layers auto");
-    if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share); !advice.empty()) say(advice);
+        number(100 * made.surface.unsupported_area_share) + " % of the surface seen by no ray; the full surface has " +
+        std::to_string(made.full_triangles) + " triangles");
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         const Level& level = made.levels[k];
-        std::string line = level.name + ": " + summary(made.checks[k]);
-        if (level.error.max > 0)
-            line += ", error " + error_line(level.error, made.sample);
+        std::string line = level.name + " (" + made.asked[k].option + "): " + summary(made.checks[k]);
+        if (level.error.max > 0) line += ", error " + error_line(level.error, made.sample);
         say(line);
-        if (!made.textures.empty()) say("  " + describe(made.textures[k], options.texture));
+        if (made.textures[k]) say("  " + describe(*made.textures[k]));
     }
     for (const auto& file : made.files)
         say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
+}
+
+void say_made(const Options& options, const MeshedCapture& made) {
+    if (options.verbose) say_figures(options, made);
+    if (made.surface.exterior == ExteriorRule::axes && options.exterior == "layers")
+        say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
+            "): cavities that no axis looks into are filled; capture again with --layers auto");
+    if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share); !advice.empty()) say(advice);
+    for (const std::string& note : made.notes) say(printable(note));
     if (!options.pm.empty())
-        say("wrote " + options.pm + " (" + std::to_string(std::filesystem::file_size(options.pm)) + " bytes, " +
-            std::to_string(made.vertex_splits) + " vertex splits)");
+        say("wrote " + printable(options.pm) + " (" + std::to_string(std::filesystem::file_size(options.pm)) +
+            " bytes, " + std::to_string(made.vertex_splits) + " vertex splits)");
+    say(closing_line({.what = made.info.program + ", frame " + std::to_string(made.info.frame),
+                      .triangles = made.checks[0].triangles,
+                      .error_samples = made.levels[0].error.p999 / made.sample,
+                      .n = made.info.n,
+                      .file = options.output,
+                      .more_files = options.levels == "files" ? made.levels.size() - 1 : 0}));
 }
 
 int make_mesh(const Options& options) {
@@ -146,14 +165,12 @@ int make_mesh(const Options& options) {
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.footer(
-        "Levels. A .glb holds the full surface as level 0, which is what viewers show, and the levels asked "
-        "for behind\n"
-        "it (MSFT_lod); by default those have 1/10 and 1/100 of the triangles, at least 500. The other "
-        "formats hold one\n"
-        "mesh: the full surface, or with targets one file per target: OUT.ply for the finest, OUT.lod1.ply, "
-        "...\n"
-        "Every level is a closed two-manifold and is measured against the full surface, or nothing is "
-        "written.\n"
+        "Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, each a file with one mesh.\n"
+        "By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n being the samples\n"
+        "of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both ways, measured. What asks\n"
+        "for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and nothing else.\n"
+        "A level has a texture where the colours and normals of its vertices would show it wrongly.\n"
+        "Every level is a closed two-manifold and is measured against the full surface, or nothing is written.\n"
         "With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the\n"
         "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
         "Positions are in the captured model's own units and axes. .off and .3mf keep colours but no normals, .stl neither.");
@@ -175,6 +192,10 @@ Run declare_mesh(CLI::App& app) {
                    "close slits up to this radius, in samples; 0 keeps every gap")
         ->check(CLI::Range(0.0, 64.0))
         ->capture_default_str();
+    app.add_option("--pixels", options->pixels, "levels for an object drawn so many pixels wide: 512,100")
+        ->delimiter(',')
+        ->check(CLI::Range(1.0, 65536.0));
+    app.add_flag("--full", options->full, "the full surface, not simplified");
     auto* edges = app.add_option("--edges", options->edges, "levels with at most so many edges: 5000,782")
                       ->delimiter(',');
     auto* triangles =
@@ -205,13 +226,15 @@ Run declare_mesh(CLI::App& app) {
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();
     app.add_option("--texture", options->texture,
-                   "bake colours and normals of every level into textures so many texels wide: 64, 128, ... 8192")
-        ->check(texture_size());
+                   "auto: levels that need it, as large as they need; none; or bake colours and normals of every level into "
+                   "textures so many texels wide: 64, 128, ... 8192")
+        ->check(texture_size())
+        ->capture_default_str();
     app.parse_complete_callback([options] {
         const std::string ending = std::filesystem::path(options->output).extension();
         if (!options->units.empty() && ending != ".stl" && ending != ".3mf")
             throw CLI::ValidationError("--units", "is for .stl and .3mf: other formats have no unit of length to say");
-        if (options->texture && options->method == "cubes")
+        if (options->texture != "auto" && options->texture != "none" && options->method == "cubes")
             throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
     });
     app.add_option("--compress", options->compress,
@@ -220,10 +243,12 @@ Run declare_mesh(CLI::App& app) {
         ->capture_default_str();
     app.add_option("--units", options->units, ".stl, .3mf: what a unit of the model is: um, mm, cm, inch, ft or m; default: mm")
         ->check(CLI::IsMember({"um", "mm", "cm", "inch", "ft", "m"}));
-    app.add_flag("--split", options->split, ".glb: beside it one file a level: OUT.lod0.glb, OUT.lod1.glb, ...");
+    app.add_option("--levels", options->levels, "files: a file each; one-file: .glb with all of them, by MSFT_lod")
+        ->check(CLI::IsMember({"files", "one-file"}))
+        ->capture_default_str();
     app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
-    app.add_flag("--verbose", options->verbose, "say also how, with figures");
+    app.add_flag("--verbose", options->verbose, "say the figures of every level and file");
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     app.add_flag("--rehearse", options->rehearse)->group("");
     return [options] { return make_mesh(*options); };

@@ -28,7 +28,7 @@ int render(const Options& options) {
     require_writable(options.output);
     CapturedSix captured;
     if (!options.capture.empty()) captured = read_six_views(options.capture);
-    const std::vector<Level> levels = read_levels(options.mesh);
+    const std::vector<Level> levels = read_all_levels(options.mesh);
     const CapturedViews beside{caption(captured.info), captured.views, captured.info.box};
     Picture sheet;
     {

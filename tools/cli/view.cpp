@@ -49,7 +49,7 @@ std::string capture_of(const Options& options) {
 }
 
 std::vector<Level> levels_of(const std::string& file) {
-    if (!is_capture(file)) return read_levels(file);
+    if (!is_capture(file)) return read_all_levels(file);
     PipelineOptions how;
     how.stage = progress_of_stages();
     return std::move(mesh_capture(file, how).levels);

@@ -23,6 +23,7 @@ namespace glcast {
 namespace {
 
 constexpr std::size_t points_a_side = 200'000;
+constexpr std::size_t glance_one_of = 20;
 constexpr std::size_t piece = 2048; ///< points that follow one another: neighbours, mostly
 
 struct Probe {
@@ -49,8 +50,12 @@ std::vector<AreaSample> neighbours_together(const std::vector<AreaSample>& sampl
     return sorted;
 }
 
+std::vector<AreaSample> points_of(const Level& level, std::size_t count) {
+    return neighbours_together(area_samples(level.mesh, count));
+}
+
 std::vector<Probe> probes(const Level& level) {
-    const std::vector<AreaSample> samples = neighbours_together(area_samples(level.mesh, points_a_side));
+    const std::vector<AreaSample> samples = points_of(level, points_a_side);
     std::vector<Probe> all(samples.size());
     tbb::parallel_for(std::size_t(0), all.size(), [&](std::size_t i) {
         all[i] = {samples[i], shown(level, samples[i].triangle, samples[i].weights)};
@@ -171,6 +176,28 @@ double farthest(const std::vector<glm::dvec3>& vertices, const SurfaceIndex& ind
     return largest;
 }
 
+double nearly_all_within(std::vector<float>& distances) {
+    if (distances.empty()) return 0;
+    const auto rank = std::ptrdiff_t(std::ceil(0.999 * double(distances.size()))) - 1;
+    std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
+    return distances[std::size_t(rank)];
+}
+
+/// Distance within which 99.9 % of the points are.
+template <class PointOf>
+double distance_of_nearly_all(std::size_t count, const PointOf& point, const SurfaceIndex& index) {
+    std::vector<float> distances(count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, piece), [&](const auto& range) {
+        std::uint32_t near = index.nearest(point(range.begin())).triangle;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const SurfaceIndex::Nearest found = index.nearest(point(i), near);
+            near = found.triangle;
+            distances[i] = float(found.distance);
+        }
+    });
+    return nearly_all_within(distances);
+}
+
 double mean(const std::vector<Differences>& all, float Differences::*what) {
     double sum = 0;
     for (const Differences& d : all) sum += d.*what;
@@ -181,9 +208,7 @@ double all_but_a_thousandth(const std::vector<Differences>& all, float Differenc
     if (all.empty()) return 0;
     std::vector<float> values;
     for (const Differences& d : all) values.push_back(d.*what);
-    const auto rank = std::ptrdiff_t(std::ceil(0.999 * double(values.size()))) - 1;
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[std::size_t(rank)];
+    return nearly_all_within(values);
 }
 
 double largest(const std::vector<Differences>& all) {
@@ -221,6 +246,16 @@ struct LevelMeter::Impl {
         return error;
     }
 
+    double glance(const Level& level) const {
+        const SurfaceIndex level_index(level.mesh, SurfaceIndex::Tree::quick);
+        const std::vector<AreaSample> on_level = points_of(level, points_a_side / glance_one_of);
+        const double there = distance_of_nearly_all(
+            on_full.size() / glance_one_of, [&](std::size_t i) { return on_full[i * glance_one_of].at.position; },
+            level_index);
+        return std::max(there, distance_of_nearly_all(
+                                   on_level.size(), [&](std::size_t i) { return on_level[i].position; }, index));
+    }
+
     const Level& full;
     SurfaceIndex index;
     std::vector<Probe> on_full;
@@ -229,6 +264,7 @@ struct LevelMeter::Impl {
 LevelMeter::LevelMeter(const Level& full) : impl(std::make_unique<Impl>(full)) {}
 LevelMeter::~LevelMeter() = default;
 LevelError LevelMeter::measure(const Level& level) const { return impl->measure(level); }
+double LevelMeter::glance(const Level& level) const { return impl->glance(level); }
 
 LevelError measure_level(const Level& full, const Level& level) { return LevelMeter(full).measure(level); }
 

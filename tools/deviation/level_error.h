@@ -21,6 +21,8 @@ class LevelMeter {
     explicit LevelMeter(const Level& full); ///< Throws std::runtime_error on a mesh without triangles.
     ~LevelMeter();
     LevelError measure(const Level& level) const; ///< the same
+    /// From a twentieth of the points: 99.9 % of the surface are nearer than about so much (model units).
+    double glance(const Level& level) const;
 
   private:
     struct Impl;

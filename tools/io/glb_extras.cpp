@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "tools/io/level_set.h"
 #include "tools/mesh/error_names.h"
 
 namespace glcast::format {
@@ -40,6 +41,8 @@ Value level_extras(const Level& level) {
     Value::Object extras{{"triangles", Value(static_cast<int>(level.mesh.triangles.size()))},
                          {"sample", Value(level.sample)}};
     for (const ErrorName& e : error_names) extras[e.name] = Value(level.error.*e.value);
+    if (level.pixels > 0) extras["pixels"] = Value(level.pixels);
+    if (level.set.count > 0) extras[mark_name] = Value(mark_of(level.set));
     return Value(extras);
 }
 
@@ -47,6 +50,7 @@ void read_extras(const Value& extras, Level& level) {
     for (const ErrorName& e : error_names)
         level.error.*e.value = std::max(level.error.*e.value, number_in(extras, e.name));
     level.sample = std::max(level.sample, number_in(extras, "sample"));
+    level.pixels = std::max(level.pixels, number_in(extras, "pixels"));
 }
 
 std::vector<double> screen_coverage(std::span<const Level> levels) {

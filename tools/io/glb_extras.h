@@ -7,7 +7,7 @@
 
 namespace glcast::format {
 
-/// `extras` of a mesh: triangles, the measured errors (error_names), sample.
+/// `extras` of a mesh: triangles, the measured errors (error_names), sample, pixels, the mark of its set.
 tinygltf::Value level_extras(const Level& level);
 void read_extras(const tinygltf::Value& extras, Level& level); ///< whatever of it is there
 

@@ -58,8 +58,7 @@ class GlbBuilder {
 
     /// Room for the levels, so that the buffer need not grow, and be copied, on the way.
     void reserve(std::span<const Level> levels, const std::vector<Pngs>& pngs);
-    void add_level(const Level& level, const Pngs& pngs); ///< all but its errors
-    void add_errors(std::span<const Level> levels);
+    void add_level(const Level& level, const Pngs& pngs);
     void add_scene(std::span<const Level> levels);
     tinygltf::Model model;
 
@@ -91,7 +90,6 @@ class GlbBuilder {
     std::optional<PositionGrid> grid;
     bool reorder;
     int plain = -1;
-    std::vector<int> seams; ///< by level: the accessor of what vertices are copies of, -1 where none are
 };
 
 void GlbBuilder::reserve(std::span<const Level> levels, const std::vector<Pngs>& pngs) {
@@ -301,8 +299,10 @@ void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
     tinygltf::Mesh mesh;
     mesh.name = level.name;
     mesh.primitives.push_back(primitive_of(level, reorder ? moved : level.mesh, split, pngs));
-    seams.push_back(
-        split.originals.empty() ? -1 : add_indices(split.originals, level.mesh.positions.size(), no_target));
+    mesh.extras = level_extras(level);
+    if (!split.originals.empty())
+        mesh.extras.Get<Value::Object>()["seams"] =
+            Value(add_indices(split.originals, level.mesh.positions.size(), no_target));
     model.meshes.push_back(mesh);
     tinygltf::Node node;
     node.name = level.name;
@@ -313,13 +313,6 @@ void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
     } else if (origin != glm::dvec3(0))
         node.translation = {origin.x, origin.y, origin.z};
     model.nodes.push_back(node);
-}
-
-void GlbBuilder::add_errors(std::span<const Level> levels) {
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-        Value& extras = model.meshes[k].extras = level_extras(levels[k]);
-        if (seams[k] >= 0) extras.Get<Value::Object>()["seams"] = Value(seams[k]);
-    }
 }
 
 void GlbBuilder::add_scene(std::span<const Level> levels) {
@@ -368,7 +361,7 @@ bool write_model(std::ostream& stream, tinygltf::Model&& model) {
 
 /// Uncompressed; false when the stream does not take it.
 bool write_to(std::ostream& stream, std::span<const Level> levels, Compression compression,
-              const PositionGrid* grid, const std::function<void()>& await_errors) {
+              const PositionGrid* grid) {
     std::optional<PositionGrid> steps;
     if (compression != Compression::none) steps = grid ? *grid : grid_for(levels);
     // Positions are floats: far from the origin they are kept relative to a whole-numbered point near the
@@ -379,31 +372,28 @@ bool write_to(std::ostream& stream, std::span<const Level> levels, Compression c
     const std::vector<Pngs> pngs = make_pngs(levels);
     builder.reserve(levels, pngs);
     for (std::size_t k = 0; k < levels.size(); ++k) builder.add_level(levels[k], pngs[k]);
-    if (await_errors) await_errors();
-    builder.add_errors(levels);
     builder.add_scene(levels);
     return write_model(stream, std::move(builder.model));
 }
 
 } // namespace
 
-std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid,
-                      const std::function<void()>& await_errors) {
+std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid) {
     std::ostringstream stream;
-    if (!write_to(stream, levels, compression, grid, await_errors)) refuse("tinygltf cannot write it");
+    if (!write_to(stream, levels, compression, grid)) refuse("tinygltf cannot write it");
     std::string bytes = std::move(stream).str();
     return compression == Compression::meshopt ? meshopt_compressed(bytes) : bytes;
 }
 
 bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
-               const PositionGrid* grid, const std::function<void()>& await_errors) {
+               const PositionGrid* grid) {
     if (compression == Compression::meshopt) {
-        const std::string bytes = glb_bytes(levels, compression, grid, await_errors);
+        const std::string bytes = glb_bytes(levels, compression, grid);
         return file.append(bytes.data(), bytes.size());
     }
     FileBuffer buffer(file);
     std::ostream stream(&buffer);
-    if (write_to(stream, levels, compression, grid, await_errors)) return true;
+    if (write_to(stream, levels, compression, grid)) return true;
     if (file.error().empty()) refuse("tinygltf cannot write it");
     return false;
 }

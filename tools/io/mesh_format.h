@@ -46,10 +46,9 @@ bool write_pictures(FileSet& files, const std::filesystem::path& path, const Tex
 
 // Writers append to the file; false when it cannot take it (its error() says why).
 /// The whole file. `grid`: of levels that share one with levels in other files; null: their own.
-std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid = nullptr,
-                      const std::function<void()>& await_errors = {});
+std::string glb_bytes(std::span<const Level> levels, Compression compression, const PositionGrid* grid = nullptr);
 bool write_glb(OutputFile& file, std::span<const Level> levels, Compression compression,
-               const PositionGrid* grid = nullptr, const std::function<void()>& await_errors = {});
+               const PositionGrid* grid = nullptr);
 bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);
 bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);
 bool write_off(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&);

@@ -11,8 +11,11 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include <tbb/parallel_for.h>
+
 #include "capture/output_file.h"
 #include "tools/io/input_file.h"
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_format.h"
 
 namespace glcast {
@@ -183,22 +186,15 @@ void tidy(Level& level) {
             for (int k = 0; k < 3; ++k) c[k] = std::isnan(c[k]) ? 0 : std::clamp(c[k], 0.0f, 1.0f);
 }
 
-std::filesystem::path numbered(const std::filesystem::path& path, std::size_t level) {
-    std::filesystem::path name = path.parent_path() / path.stem();
-    name += ".lod" + std::to_string(level) + path.extension().string();
-    return name;
-}
-
-std::filesystem::path level_path(const std::filesystem::path& path, std::size_t level) {
-    return level == 0 ? path : numbered(path, level);
-}
-
-/// NAME.lod0.glb, NAME.lod1.glb, ...: level by level, beside all in one.
-void write_split(format::FileSet& files, const std::filesystem::path& path, std::span<const Level> levels,
-                 Compression compression) {
+/// A file each; pictures are packed on all cores.
+void write_glbs(format::FileSet& files, const std::filesystem::path& path, std::span<const Level> levels,
+                Compression compression) {
     const format::PositionGrid grid = format::grid_for(levels);
-    for (std::size_t k = 0; k < levels.size(); ++k)
-        format::write_glb(files.companion(numbered(path, k)), levels.subspan(k, 1), compression, &grid);
+    std::vector<OutputFile*> open;
+    for (std::size_t k = 0; k < levels.size(); ++k) open.push_back(&files.mesh(level_path(path, k)));
+    tbb::parallel_for(std::size_t(0), levels.size(), [&](std::size_t k) {
+        format::write_glb(*open[k], levels.subspan(k, 1), compression, &grid);
+    });
 }
 
 } // namespace
@@ -207,14 +203,24 @@ std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
         if (!f.read) format::refuse(std::string(f.extension) + " is written only");
-        std::vector<Level> levels = f.read(read_file(path), path);
+        const std::string bytes = read_file(path);
+        std::vector<Level> levels = f.read(bytes, path);
         for (Level& level : levels) tidy(level);
+        if (levels.size() == 1) levels[0].set = marked_set(bytes);
         return levels;
     } catch (const std::bad_alloc&) {
         throw; // no fault of the file
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot read mesh '" + path.string() + "': " + e.what());
     }
+}
+
+std::vector<Level> read_all_levels(const std::filesystem::path& path) {
+    std::vector<Level> levels = read_levels(path);
+    if (levels.size() > 1) return levels;
+    for (const std::filesystem::path& beside : levels_beside(path, levels[0].set))
+        levels.push_back(std::move(read_levels(beside).front()));
+    return levels;
 }
 
 Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels(path).front().mesh); }
@@ -238,14 +244,15 @@ void round_levels(std::span<Level> levels, Compression compression) {
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options) {
     const Format& f = format_of(path);
-    if (!f.many_levels && (options.split || options.compression != Compression::none))
-        format::refuse("only .glb is compressed or split");
+    if (!f.many_levels && (options.one_file || options.compression != Compression::none))
+        format::refuse("only .glb is compressed, or holds several levels");
     if (levels.empty()) throw std::logic_error("no levels to write");
     format::FileSet files; // all are written before the first appears
-    if (f.many_levels) {
-        format::write_glb(files.mesh(path), levels, options.compression, nullptr, options.await_errors);
-        if (options.split) write_split(files, path, levels, options.compression);
-    } else
+    if (f.many_levels && options.one_file)
+        format::write_glb(files.mesh(path), levels, options.compression);
+    else if (f.many_levels)
+        write_glbs(files, path, levels, options.compression);
+    else
         for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k], options);
     return files.commit();
 }

@@ -16,6 +16,8 @@ namespace glcast {
 /// unreadable.
 std::vector<Level> read_levels(const std::filesystem::path& path);
 Mesh read_mesh(const std::filesystem::path& path); ///< level 0
+/// The same, and of gears.glb the levels written with it to gears_LOD1.glb, ... beside it (level_set.h).
+std::vector<Level> read_all_levels(const std::filesystem::path& path);
 
 /// Of .glb alone (docs/files.md).
 enum class Compression {
@@ -26,10 +28,7 @@ enum class Compression {
 
 struct WriteOptions {
     Compression compression = Compression::none;
-    bool split = false; ///< .glb: beside NAME.glb a file for each level, NAME.lod0.glb, NAME.lod1.glb, ...
-    /// .glb: called once all but the errors has been taken from the levels, which may still be measured until it
-    /// returns. What it throws is passed on, and nothing is written.
-    std::function<void()> await_errors = {};
+    bool one_file = false; ///< .glb: all levels in one file, by MSFT_lod
     std::size_t units = millimetre; ///< .stl, .3mf: what a unit of the model is, of length_units
 };
 
@@ -37,10 +36,10 @@ struct WriteOptions {
 /// two vertices of a level come to one place. Does nothing without compression.
 void round_levels(std::span<Level> levels, Compression compression);
 
-/// By extension. .glb: all levels in one file, level 0 shown, the others beside it by MSFT_lod, measured errors in
-/// `extras`, textures embedded; the other formats hold one level, so more levels go to NAME.lod1.EXT, ..., and textures
-/// of .obj and .ply to .png beside them. Written to temporary names and renamed, all or none. Throws
-/// std::runtime_error. Returns the files written: meshes in the order of the levels, then what belongs to them.
+/// By extension. Each level goes to a file of its own, NAME.EXT, NAME_LOD1.EXT, ... (level_path()), with one mesh; errors
+/// in `extras` of .glb, textures embedded there, to .png beside .obj and .ply. Marks of sets are kept (level_set.h).
+/// Written to temporary names and renamed, all or none. Throws std::runtime_error. Returns the files written: meshes in
+/// the order of the levels, then what belongs to them.
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options = {});
 

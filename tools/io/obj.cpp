@@ -1,5 +1,6 @@
 // Wavefront .obj, written: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f; an .mtl
 // where there is a texture.
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_format.h"
 #include "tools/io/text_cursor.h"
 #include "tools/mesh/corner_split.h"
@@ -39,10 +40,12 @@ bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& l
     const std::vector<glm::vec3>& normals = own ? level.wedges.normals : mesh.normals;
     Gather out(files.mesh(path));
     out << "# glcast " GLCAST_VERSION "\n";
+    if (level.set.count > 0) out << "# " << mark_name << ": " << mark_of(level.set) << '\n';
     if (textured) {
         if (!write_mtl(files, path, level.texture)) return false;
         out << "mtllib " << path.stem().string() << ".mtl\n";
     }
+    if (level.set.count > 0) out << "o " << level.name << '\n';
     add_vertices(out, mesh, normals, !mesh.colours.empty() && !textured);
     const CornerSplit split = split_corners(mesh, level.texture, {});
     for (const glm::vec2& at : split.coordinates) out << "vt " << at.x << ' ' << 1 - at.y << '\n';

@@ -1,6 +1,7 @@
 // .ply, written: binary, little endian; doubles where floats would lose digits.
 #include <cmath>
 
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_format.h"
 #include "tools/io/ply_header.h"
 #include "tools/io/text_cursor.h"
@@ -30,6 +31,7 @@ bool write_ply(FileSet& files, const std::filesystem::path& path, const Level& l
     const Wedges& wedges = level.wedges;
     const bool wide = !floats_hold(mesh), normals = !mesh.normals.empty(), colours = !mesh.colours.empty();
     out << "ply\nformat binary_little_endian 1.0\ncomment glcast " GLCAST_VERSION "\n";
+    if (level.set.count > 0) out << "comment " << mark_name << ": " << mark_of(level.set) << '\n';
     if (textured) out << "comment TextureFile " << names.colour << '\n';
     out << "element vertex " << mesh.positions.size() << '\n';
     for (const char* name : {"x", "y", "z"})

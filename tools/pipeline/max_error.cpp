@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -52,6 +53,12 @@ std::vector<double> between(double coarse, double fine) {
 }
 
 } // namespace
+
+std::string ErrorLimit::text() const {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.10g", value);
+    return number + std::string(unit == Unit::units ? "u" : unit == Unit::percent ? "%" : "");
+}
 
 double ErrorLimit::in_units(const Level& full) const {
     if (unit == Unit::units) return value;

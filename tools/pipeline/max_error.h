@@ -12,6 +12,7 @@ struct ErrorLimit {
     enum class Unit { samples, units, percent } unit = Unit::samples;
     double value = 0;
 
+    std::string text() const;                 ///< as it is written
     double in_units(const Level& full) const; ///< throws std::runtime_error where the sample is not known
 };
 

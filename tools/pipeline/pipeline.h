@@ -2,14 +2,15 @@
 // nothing.
 //
 //     PipelineOptions how;
-//     how.targets = {{SimplifyTarget::Unit::triangles, 2000}};
-//     const MeshedCapture made = mesh_capture("gears.exr", "gears.glb", how);
-//     for (std::size_t k = 0; k < made.levels.size(); ++k)
-//         std::printf("%zu triangles, 99.9 %% within %g samples\n", made.checks[k].triangles,
-//                     made.levels[k].error.p999 / made.sample);
+//     how.targets = {{SimplifyTarget::Unit::triangles, 2000}}; // without: levels for n/2, n/4, n/8, n/16
+//     pixels const MeshedCapture made = mesh_capture("gears.exr", "gears.glb", how); for (std::size_t k = 0;
+//     k < made.levels.size(); ++k)
+//         std::printf("%s: %zu triangles, 99.9 %% within %g samples\n", made.files[k].c_str(),
+//                     made.checks[k].triangles, made.levels[k].error.p999 / made.sample);
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,21 +18,26 @@
 #include "tools/io/mesh_io.h"
 #include "tools/mesh/check.h"
 #include "tools/pipeline/max_error.h"
+#include "tools/pipeline/textures.h"
 #include "tools/reconstruct/reconstruct.h"
 #include "tools/simplify/simplify.h"
-#include "tools/texture/bake.h"
 
 namespace glcast {
 
 struct PipelineOptions {
     ReconstructOptions surface; ///< complete_layers is what the capture says
-    // Levels: by count or by error. None of either: those of default.
-    std::vector<SimplifyTarget> targets;
-    std::vector<ErrorLimit> max_error;
-    int texture = 0;                             ///< texels along an edge of each level's atlas; 0: none
+    // Which levels: what is asked for here and nothing else. Nothing: those for default_pixels()
+    // (sized_levels.h).
+    std::vector<SimplifyTarget> targets; ///< with at most so many triangles or edges
+    std::vector<ErrorLimit> max_error;   ///< the coarsest that are nowhere farther from the full surface
+    std::vector<double>
+        pixels;        ///< for an object drawn so wide on the screen: error_within() (sized_levels.h)
+    bool full = false; ///< the full surface
+
+    TextureChoice texture;                       ///< none with SurfaceMethod::cubes
     Compression compression = Compression::none; ///< .glb alone
     std::size_t units = millimetre; ///< .stl, .3mf: what a unit of the model is, of length_units
-    bool split = false;                          ///< WriteOptions::split
+    bool one_file = false;                       ///< WriteOptions::one_file
     std::filesystem::path progressive; ///< .glpm or .pm to write too; empty: none. Its levels are not fitted.
     CheckDepth check = CheckDepth::topology;
     /// Told what is being done, in a few words, each time that something else begins; "" at the end. Never
@@ -39,29 +45,40 @@ struct PipelineOptions {
     std::function<void(const std::string& what)> stage = {};
 };
 
+/// What of the options a level was made for.
+struct Asked {
+    std::string option; ///< "--triangles 2000"
+    bool met = true; ///< the level keeps it; no where collapses leave no fewer triangles, or no smaller error
+                     ///< was found
+};
+
 /// What came out, and everything there is to tell about it. Lengths in model units.
 struct MeshedCapture {
     CaptureInfo info;
     double sample = 0; ///< distance of samples
     ReconstructReport surface;
+    std::size_t full_triangles = 0; ///< of the full surface
     // Finest first; the vectors run in parallel. All levels are closed two-manifolds.
     std::vector<Level> levels; ///< measured: LevelError is true of what the files hold
     std::vector<MeshCheck> checks;
-    std::vector<TextureReport> textures; ///< empty where there are no textures
-    std::vector<std::filesystem::path>
-        files; ///< meshes, then what belongs to them; the progressive mesh is not among them
-    std::size_t vertex_splits = 0; ///< of the progressive mesh
+    std::vector<Asked> asked;
+    std::vector<std::optional<TextureReport>> textures; ///< of those that have one
+    std::vector<std::filesystem::path> files; ///< meshes (one, or one a level), then what belongs to them;
+                                              ///< the progressive mesh is not among them
+    std::vector<std::string> notes; ///< what is not as was asked, or as before: a line each, for the user
+    std::size_t vertex_splits = 0;  ///< of the progressive mesh
     struct Seconds {
         double read = 0, surface = 0, simplify = 0, texture = 0, measure = 0, write = 0;
     } seconds;
 };
 
-/// Levels in memory, as a .glb would hold them. Throws std::runtime_error with one line for the user: a
-/// capture that cannot be read or is empty, a target that is none, an atlas too small.
+/// Levels in memory. Throws std::runtime_error with one line for the user: a capture that cannot be read or
+/// is empty, a target that is none.
 MeshedCapture mesh_capture(const std::filesystem::path& capture, const PipelineOptions& options = {});
 
-/// The same, then written to `output`, by its extension: all files of the run or none. Throws also where
-/// check_output() does, before anything is read.
+/// The same, then written to `output`, by its extension: all files of the run or none. What an earlier run
+/// wrote there goes with its level 0: gears_LOD3.glb of that run too, where there are only three levels now.
+/// Throws also where check_output() does, before anything is read.
 MeshedCapture mesh_capture(const std::filesystem::path& capture, const std::filesystem::path& output,
                            const PipelineOptions& options = {});
 

@@ -15,7 +15,7 @@ struct MeshOption {
 inline constexpr MeshOption mesh_options[] = {
     {"--method", true},  {"--exterior", true},  {"--sheet-thickness", true}, {"--close-gaps", true},
     {"--edges", true},   {"--triangles", true}, {"--ratio", true},           {"--max-error", true},
-    {"--texture", true}, {"--compress", true},  {"--split", false},          {"--pm", true},
+    {"--texture", true}, {"--compress", true},  {"--pm", true},
     {"--check", false}, {"--units", true},
 };
 

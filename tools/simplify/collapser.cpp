@@ -50,9 +50,27 @@ template <int N> class RoundsCollapser final : public Collapser {
         return in_one_patch;
     }
 
-    Remainder remainder() const override {
+    Remainder remainder() const override { return after(taken); }
+
+    std::optional<Remainder> remainder_at(const Limit& limit) const override {
+        if (!in_one_patch) return {};
+        const auto met = [&](const Limit& left) { return left.triangles <= limit.triangles && left.edges <= limit.edges; };
+        Limit left = patch_has;
+        if (met(left) && made > taken) return {}; // it was kept earlier, perhaps by more
+        std::size_t count = 0;
+        while (count < taken && !met(left)) subtract(left, steps[count++]);
+        if (!met(left)) return {};
+        return after(count);
+    }
+
+    std::size_t collapses() const override { return made; }
+    Log take_log() override { return std::move(log); }
+
+  private:
+    /// What the first `count` of the steps leave.
+    Remainder after(std::size_t count) const {
         std::vector<std::uint32_t> of_base;
-        Shape left = after_steps(base, std::span(steps).first(taken), of_base);
+        Shape left = after_steps(base, std::span(steps).first(count), of_base);
         Remainder result;
         result.positions.reserve(left.position.size());
         for (std::size_t v = 0; v < left.position.size(); ++v)
@@ -69,10 +87,6 @@ template <int N> class RoundsCollapser final : public Collapser {
         return result;
     }
 
-    std::size_t collapses() const override { return made; }
-    Log take_log() override { return std::move(log); }
-
-  private:
     bool meets(const Limit& limit) const {
         return live.triangles <= limit.triangles && live.edges <= limit.edges;
     }
@@ -95,9 +109,13 @@ template <int N> class RoundsCollapser final : public Collapser {
         while (!meets(limit) && taken < steps.size()) take(steps[taken++]);
     }
 
+    static void subtract(Limit& from, const Step& step) {
+        from.triangles -= step.at_boundary ? 1 : 2;
+        from.edges -= step.at_boundary ? 2 : 3;
+    }
+
     void count(const Step& step) {
-        live.triangles -= step.at_boundary ? 1 : 2;
-        live.edges -= step.at_boundary ? 2 : 3;
+        subtract(live, step);
         ++made;
     }
 
@@ -139,6 +157,7 @@ template <int N> class RoundsCollapser final : public Collapser {
             base.quadrics = {};
             whole.patch.queue_edges(std::numeric_limits<float>::infinity());
             in_one_patch = true;
+            patch_has = live;
             return;
         }
         RoundOptions options{triangles_per_tile, turn++, price};
@@ -184,6 +203,7 @@ template <int N> class RoundsCollapser final : public Collapser {
     float price = 0;
     int idle = 0;
     bool in_one_patch = false;
+    Limit patch_has; ///< when it became one
     NamedPatch<N> whole;
 };
 

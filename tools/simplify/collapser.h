@@ -7,6 +7,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "tools/mesh/mesh.h"
 #include "tools/simplify/collapse_log.h"
@@ -48,6 +49,9 @@ class Collapser {
     /// core.
     virtual bool run_rounds(const Limit& limit) = 0;
     virtual Remainder remainder() const = 0;
+    /// As remainder() was when the limit was first kept, once reduce_to() has gone past it. Nothing where that was before
+    /// the rest became one patch.
+    virtual std::optional<Remainder> remainder_at(const Limit& limit) const = 0;
     virtual std::size_t collapses() const = 0; ///< so far
     virtual Log take_log() = 0;                ///< empty unless it was to be kept
 };

@@ -131,6 +131,51 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
     return levels;
 }
 
+struct Simplification::Impl {
+    Impl(const Mesh& mesh, const SimplifyOptions& options)
+        : mesh(mesh), options(options), have(options.checked ? *options.checked : check_mesh(mesh)) {
+        if (const std::string wrong = fault(have, options); !wrong.empty())
+            throw std::runtime_error("cannot simplify: " + wrong);
+        collapser = Collapser::make(mesh, {have.triangles, have.edges}, weights_of(options), false);
+        least = have.triangles;
+    }
+
+    const Mesh& mesh;
+    const SimplifyOptions options;
+    const MeshCheck have;
+    std::unique_ptr<Collapser> collapser;
+    std::size_t least; ///< triangles
+    std::optional<SurfaceWalk> walk;
+    std::optional<SurfaceArea> area;
+};
+
+Simplification::Simplification(const Mesh& mesh, const SimplifyOptions& options)
+    : impl(std::make_unique<Impl>(mesh, options)) {}
+Simplification::~Simplification() = default;
+
+void Simplification::collapse_to(std::size_t triangles) {
+    impl->collapser->reduce_to({triangles, SIZE_MAX});
+    impl->least = impl->have.triangles - 2 * impl->collapser->collapses(); // closed: two a collapse
+    if (!impl->walk) impl->walk.emplace(impl->mesh);
+    if (!impl->area && impl->options.refit) impl->area.emplace(impl->mesh);
+}
+
+std::size_t Simplification::least() const { return impl->least; }
+
+Mesh Simplification::level(std::size_t triangles, bool fitted) const {
+    if (triangles >= impl->have.triangles) return impl->mesh;
+    SimplifyOptions own = impl->options;
+    own.checked = &impl->have;
+    std::optional<Collapser::Remainder> remainder = impl->collapser->remainder_at({triangles, SIZE_MAX});
+    if (!remainder) {
+        own.refit = own.refit && fitted;
+        own.normal_weight = weights_of(impl->options).normal;
+        return simplify(impl->mesh, {SimplifyTarget::Unit::triangles, double(triangles)}, own);
+    }
+    if (fitted && own.refit) refit(*remainder, *impl->area);
+    return finished(std::move(*remainder), *impl->walk, impl->mesh.normals, own);
+}
+
 Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options) {
     return std::move(simplify_levels(mesh, {&target, 1}, options).front());
 }

@@ -2,6 +2,7 @@
 // left.
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -46,5 +47,27 @@ Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOpti
 /// refit each level is collapsed(mesh, log, k) bit for bit, k the first number that meets its target.
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
                                   const SimplifyOptions& options = {}, CollapseLog* log = nullptr);
+
+/// One run of collapses, from which levels are taken at whatever counts are asked for, in any order: for who looks for a
+/// count. Each is what simplify() gives for that count.
+class Simplification {
+  public:
+    /// `mesh` must be a closed two-manifold, and outlive this, unchanged. Throws std::runtime_error as simplify() does.
+    /// last_stretch and checked of the options as there.
+    Simplification(const Mesh& mesh, const SimplifyOptions& options = {});
+    ~Simplification();
+
+    void collapse_to(std::size_t triangles); ///< no more than so many, or as few as collapses can leave
+    std::size_t least() const;               ///< triangles that are left
+
+    /// A level with at most so many triangles, not fewer than least(). Levels may be taken on several threads at once,
+    /// but not while collapse_to() runs. One so fine that a part of the run would have to be undone for it is made by a
+    /// run of its own. `fitted`: laid along the surface, where the options say so; without, in some milliseconds.
+    Mesh level(std::size_t triangles, bool fitted = true) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl;
+};
 
 } // namespace glcast

@@ -79,9 +79,21 @@ Atlas pack(const Charts& charts, int size, int gutter, double finest, const glm:
         }
     }
     if (!best.size)
-        throw std::runtime_error("a texture of " + std::to_string(size) + " texels is too small for " +
+        throw AtlasTooSmall("a texture of " + std::to_string(size) + " texels is too small for " +
                                  std::to_string(charts.charts.size()) + " charts; ask for a larger one");
     return best;
+}
+
+Atlas pack_tightly(const Charts& charts, int largest, int gutter, double density, const glm::dvec3& origin) {
+    double area = 0;
+    for (const Atlas::Place& place : lay_out(charts, largest, gutter, density, origin).places)
+        area += double(place.width + gutter) * (place.height + gutter);
+    for (int size = 64; size <= largest; size *= 2) {
+        if (double(size) * size < area) continue;
+        Atlas atlas = lay_out(charts, size, gutter, density, origin);
+        if (place_all(atlas)) return atlas;
+    }
+    return pack(charts, largest, gutter, density, origin);
 }
 
 } // namespace glcast

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
 constexpr int block = 32;           // texels
+constexpr int most_looks = 4;
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
 struct Layout {
@@ -37,6 +38,8 @@ void check(const Mesh& mesh, const CapturedSurface& captured, const TextureOptio
                                  std::to_string(options.size));
     if (options.gutter < 2 || options.gutter > 64)
         throw std::runtime_error("the gutter between charts must be 2 to 64 texels");
+    if (!(options.texels_per_sample > 0 && options.texels_per_sample <= 1))
+        throw std::runtime_error("a texture has more than 0 and at most 1 texel a sample");
     if (mesh.triangles.empty()) throw std::runtime_error("there is no surface to texture");
     if (captured.empty()) throw std::runtime_error("there is no captured surface to take a texture from");
 }
@@ -73,37 +76,26 @@ class Baker {
   public:
     Baker(const Mesh& mesh, const Wedges& wedges, const CapturedSurface& captured, const Layout& layout,
           double reach, Texture& texture)
-        : mesh(mesh), wedges(wedges), captured(captured), layout(layout), texture(texture), reach(reach) {}
+        : mesh(mesh), wedges(wedges), captured(captured), layout(layout), texture(texture), reach(reach),
+          looks(std::clamp(int(std::round(1 / (layout.atlas.density * captured.sample()))), 1, most_looks)) {}
 
     struct Done {
         bool covered, seen; ///< the texel's centre is on the triangle; a ray saw the surface there
     };
     Done bake(int x, int y, std::uint32_t t) {
         if (t != facet.triangle) facet = facet_of(t);
-        const Triangle& v = mesh.triangles[t];
-        const TrianglePoint nearest = in_triangle(x, y);
-        const glm::dvec3& w = nearest.weights;
-        const glm::vec3 weight(w);
-        const glm::dvec3 point =
-            w.x * mesh.positions[v[0]] + w.y * mesh.positions[v[1]] + w.z * mesh.positions[v[2]];
-        const auto mix = [&](const auto& a, const auto& b, const auto& c) {
-            return weight.x * a + weight.y * b + weight.z * c;
-        };
-        const glm::vec3 normal =
-            unit_or(mix(facet.normal[0], facet.normal[1], facet.normal[2]), facet.normal[0]);
-        const glm::vec3 facing =
-            layout.triangle_normals[t] != glm::vec3(0) ? layout.triangle_normals[t] : normal;
-        const CapturedPoint seen = captured.look(point, normal, facing, reach);
+        Texel sum{glm::vec3(0), glm::vec3(0), true};
+        for (int j = 0; j < looks; ++j)
+            for (int i = 0; i < looks; ++i) {
+                const Texel part = look({x + (i + 0.5) / looks, y + (j + 0.5) / looks}, t);
+                sum.colour += part.colour, sum.normal += part.normal, sum.seen = sum.seen && part.seen;
+            }
         const std::size_t texel = std::size_t(y) * texture.colour.width + x;
-        glm::vec3 colour = seen.colour;
-        if (!seen.found)
-            colour = mesh.colours.empty() ? glm::vec3(0.5f)
-                                          : mix(mesh.colours[v[0]], mesh.colours[v[1]], mesh.colours[v[2]]);
-        put(texture.colour, texel, colour);
-        put(texture.normal, texel,
-            0.5f + 0.5f * (seen.found ? encoded(mix, normal, seen.normal) : glm::vec3(0, 0, 1)));
-        return {std::abs(nearest.point.x - x - 0.5) + std::abs(nearest.point.y - y - 0.5) < 1e-6,
-                seen.found && !seen.behind};
+        put(texture.colour, texel, sum.colour / float(looks * looks));
+        put(texture.normal, texel, 0.5f + 0.5f * unit_or(sum.normal, {0, 0, 1}));
+        const glm::dvec2 centre(x + 0.5, y + 0.5);
+        const glm::dvec3 off = in_triangle(centre).point - glm::dvec3(centre, 0);
+        return {std::abs(off.x) + std::abs(off.y) < 1e-6, sum.seen};
     }
 
   private:
@@ -130,13 +122,38 @@ class Baker {
         return made;
     }
 
-    /// The texel's centre, or the nearest point of the triangle.
-    TrianglePoint in_triangle(int x, int y) const {
-        const glm::dvec2 centre(x + 0.5, y + 0.5), from = centre - facet.corners[0];
+    struct Texel {
+        glm::vec3 colour, normal; ///< the normal in the tangent frame
+        bool seen;
+    };
+    /// What shows at a point of the atlas that belongs to triangle t.
+    Texel look(const glm::dvec2& at, std::uint32_t t) const {
+        const Triangle& v = mesh.triangles[t];
+        const glm::dvec3 w = in_triangle(at).weights;
+        const glm::vec3 weight(w);
+        const glm::dvec3 point =
+            w.x * mesh.positions[v[0]] + w.y * mesh.positions[v[1]] + w.z * mesh.positions[v[2]];
+        const auto mix = [&](const auto& a, const auto& b, const auto& c) {
+            return weight.x * a + weight.y * b + weight.z * c;
+        };
+        const glm::vec3 normal =
+            unit_or(mix(facet.normal[0], facet.normal[1], facet.normal[2]), facet.normal[0]);
+        const glm::vec3 facing =
+            layout.triangle_normals[t] != glm::vec3(0) ? layout.triangle_normals[t] : normal;
+        const CapturedPoint seen = captured.look(point, normal, facing, reach);
+        if (seen.found) return {seen.colour, encoded(mix, normal, seen.normal), !seen.behind};
+        return {mesh.colours.empty() ? glm::vec3(0.5f)
+                                     : mix(mesh.colours[v[0]], mesh.colours[v[1]], mesh.colours[v[2]]),
+                glm::vec3(0, 0, 1), false};
+    }
+
+    /// The point of the atlas, or the nearest one of the triangle.
+    TrianglePoint in_triangle(const glm::dvec2& at) const {
+        const glm::dvec2 from = at - facet.corners[0];
         const double w1 = glm::dot(facet.slope[0], from), w2 = glm::dot(facet.slope[1], from);
-        if (w1 > 0 && w2 > 0 && w1 + w2 < 1) return {{1 - w1 - w2, w1, w2}, {centre, 0}};
+        if (w1 > 0 && w2 > 0 && w1 + w2 < 1) return {{1 - w1 - w2, w1, w2}, {at, 0}};
         const auto& c = facet.corners;
-        return nearest_in_triangle({centre, 0}, {c[0], 0}, {c[1], 0}, {c[2], 0});
+        return nearest_in_triangle({at, 0}, {c[0], 0}, {c[1], 0}, {c[2], 0});
     }
 
     template <class Mix>
@@ -151,6 +168,7 @@ class Baker {
     const Layout& layout;
     Texture& texture;
     const double reach;
+    const int looks; ///< at a texel, along an axis: one a sample that it covers
     Facet facet{};
 };
 
@@ -210,7 +228,8 @@ Texture baked(const Mesh& mesh, const Wedges& wedges, const Neighbours& neighbou
     layout.triangle_normals = normals;
     layout.charts =
         make_charts(mesh, neighbours, choose_views(mesh, neighbours, normals, crumb * sample * sample), sample, origin);
-    layout.atlas = pack(layout.charts, options.size, options.gutter, 1 / sample, origin);
+    layout.atlas = (options.smallest ? pack_tightly : pack)(layout.charts, options.size, options.gutter,
+                                                            options.texels_per_sample / sample, origin);
     const auto owners = find_owners(mesh, neighbours, layout.charts, layout.atlas, texture.coordinates);
     if (wedges.empty())
         texture.tangents = make_tangents(mesh, neighbours, layout.charts.of, texture.coordinates);
@@ -221,6 +240,7 @@ Texture baked(const Mesh& mesh, const Wedges& wedges, const Neighbours& neighbou
     bake_texels(mesh, wedges, captured, layout, owners, texture, made);
 
     made.charts = layout.charts.charts.size();
+    made.size = layout.atlas.size;
     made.gutter = layout.atlas.gutter;
     made.texels_per_sample = layout.atlas.density * sample;
     if (report) *report = made;

@@ -14,10 +14,14 @@ struct TextureOptions {
         2048; ///< texels along an edge of the atlas; a power of two from smallest_texture to largest_texture
     int gutter =
         8; ///< texels between charts, 2 to 64; fewer, but at least 2, where charts are too many for that
+    double texels_per_sample = 1; ///< along an axis, 1 at most: no more are made even where there is room; a texel is the
+                                  ///< mean of what it covers
+    bool smallest = false;        ///< the smallest atlas, up to `size`, that holds so many
 };
 
 struct TextureReport {
     std::size_t charts = 0;
+    int size = 0;                 ///< texels along an edge
     int gutter = 0;               ///< texels between charts
     double texels_per_sample = 0; ///< along an axis; 1 at most: a texel a pixel of the capture
     std::size_t texels = 0;       ///< that show the surface; the gutters are not counted
@@ -27,8 +31,8 @@ struct TextureReport {
 
 /// Textures a closed level. Its normals become those that a normal map is made for (shading_normals.h): of its wedges,
 /// whose tangent frames end where they do, so that creases stay sharp; or of its vertices, where it has none. Colours of
-/// vertices stay, those of wedges, which a texture hides, go. Throws std::runtime_error when options are out of range, the
-/// mesh is empty, or the atlas is too small for its charts. The same input gives the same texture, bit for bit, on any
+/// vertices stay, those of wedges, which a texture hides, go. Throws std::runtime_error when options are out of range or
+/// the mesh is empty, AtlasTooSmall (atlas.h) when there are too many charts. The same input gives the same texture, bit for bit, on any
 /// number of threads.
 void bake_texture(Level& level, const CapturedSurface& captured, const TextureOptions& options,
                   TextureReport* report = nullptr);

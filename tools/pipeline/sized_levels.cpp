@@ -1,0 +1,122 @@
+#include "tools/pipeline/sized_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace glcast {
+namespace {
+
+constexpr int default_levels = 4;
+constexpr double pixel_share = 1.0 / 8;            // of a pixel: the error of a level
+constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
+constexpr double first_count = 65'536;             // triangles; sketches go down from here
+constexpr double sketch_step = 4;                  // of counts
+constexpr double sketch_close_enough = 1.4;        // of counts between which a limit lies
+constexpr double fit_gains = 1.1;                  // the 99.9 % error of what is not fitted, of what is
+constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
+constexpr double far_within = 0.6;                 // of the limit
+constexpr double least_step = 1.15, most_step = 2; // of counts
+constexpr double a_few_more = 1.2;
+
+} // namespace
+
+std::vector<double> default_pixels(int n) {
+    std::vector<double> pixels;
+    for (int k = 0; k < default_levels; ++k) pixels.push_back(n / std::exp2(k + 1));
+    return pixels;
+}
+
+double error_within(double pixels, int n) { return n / pixels * pixel_share; }
+
+double LevelSearch::estimate(std::size_t count) {
+    if (count >= all) { // the full surface itself
+        sketches.push_back({double(all), 0});
+        return 0;
+    }
+    simplification.collapse_to(count);
+    Level level;
+    level.mesh = simplification.level(count, false);
+    const double error = meter.glance(level);
+    const double made = double(level.mesh.triangles.size());
+    const auto at = std::lower_bound(sketches.begin(), sketches.end(), made,
+                                     [](const Estimate& e, double value) { return e.count < value; });
+    if (at == sketches.end() || at->count != made) sketches.insert(at, {made, error});
+    return error;
+}
+
+/// Until each limit lies between two counts that are near each other.
+void LevelSearch::sketch(const std::vector<double>& limits) {
+    double count = std::min(first_count, double(all));
+    while (estimate(std::size_t(count)) > limits.front() && count < double(all))
+        count = std::min(count * sketch_step, double(all));
+    count = sketches.front().count;
+    while (sketches.front().error <= limits.back() && count > fewest) {
+        count = std::max(std::floor(count / sketch_step), double(fewest));
+        estimate(std::size_t(count));
+        if (simplification.least() > count) break; // no fewer can be
+    }
+    for (const double limit : limits)
+        for (;;) {
+            const auto fine = std::find_if(sketches.begin(), sketches.end(),
+                                           [&](const Estimate& e) { return e.error <= limit; });
+            if (fine == sketches.begin() || fine == sketches.end()) break;
+            const double high = fine->count, low = std::prev(fine)->count;
+            if (high <= sketch_close_enough * low || high - low < 8) break;
+            estimate(std::size_t(std::sqrt(high * low)));
+        }
+}
+
+/// The count at which the sketched error is the limit.
+double LevelSearch::sketched(double limit) const {
+    const auto fine =
+        std::find_if(sketches.begin(), sketches.end(), [&](const Estimate& e) { return e.error <= limit; });
+    if (fine == sketches.end()) return double(all);
+    if (fine == sketches.begin()) return fine->count;
+    const Estimate &high = *fine, &low = *std::prev(fine);
+    if (!(high.error > 0)) return high.count;
+    const double share = std::log(low.error / limit) / std::log(low.error / high.error);
+    return low.count * std::pow(high.count / low.count, std::clamp(share, 0.0, 1.0));
+}
+
+SizedLevel LevelSearch::make(std::size_t count) const { return {finish(simplification.level(count)), count}; }
+
+/// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
+/// within that one more try is worth it.
+SizedLevel LevelSearch::search(double limit) const {
+    const double least = double(std::max(simplification.least(), fewest));
+    SizedLevel found;
+    double coarse = 0; // the most triangles that were too few
+    for (double count = std::max(sketched(limit * fit_gains), least);;) {
+        SizedLevel tried = make(std::size_t(std::min(count, double(all))));
+        if (tried.level.mesh.triangles.size() >= all)
+            return found.count ? std::move(found) : std::move(tried);
+        const double error = meter.glance(tried.level), share = error / (margin * limit);
+        if (share > 1) {
+            if (found.count) return found;
+            coarse = count;
+            count *= std::clamp(share, least_step, most_step);
+            continue;
+        }
+        const bool first = found.count == 0;
+        found = std::move(tried);
+        count = std::floor(count * std::max(share * least_step, 1 / most_step));
+        if (!first || share > far_within || count <= std::max(coarse, least)) return found;
+    }
+}
+
+std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<double>& limits) {
+    if (limits.empty()) return {};
+    std::vector<double> sought;
+    for (const double limit : limits) sought.push_back(limit * fit_gains);
+    sketch(sought);
+    std::vector<SizedLevel> levels(limits.size());
+    tbb::parallel_for(std::size_t(0), limits.size(), [&](std::size_t k) { levels[k] = search(limits[k]); });
+    return levels;
+}
+
+SizedLevel LevelSearch::finer(const SizedLevel& level) const {
+    return make(std::min(all, std::size_t(double(level.count) * a_few_more) + 2));
+}
+
+} // namespace glcast
