@@ -16,7 +16,8 @@ inline constexpr MeshOption mesh_options[] = {
     {"--method", true},  {"--exterior", true},  {"--sheet-thickness", true}, {"--close-gaps", true},
     {"--edges", true},   {"--triangles", true}, {"--ratio", true},           {"--max-error", true},
     {"--texture", true}, {"--compress", true},  {"--pm", true},
-    {"--check", false}, {"--units", true},
+    {"--check", false},  {"--units", true},     {"--pixels", true},          {"--full", false},
+    {"--levels", true},
 };
 
 } // namespace glcast::run
