@@ -1,6 +1,7 @@
 // Ctrl-C at every stage of glcast mesh, on a terminal of its own: nothing is left, and progress is told there alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <poll.h>
 #include <pty.h>
 #include <unistd.h>
@@ -62,20 +63,25 @@ class Interrupt : public testing::Test {
     void SetUp() override { ASSERT_EQ(write_sphere(file("s.exr"), 40), ""); }
     std::string file(const std::string& name) const { return (folder / name).string(); }
 
-    /// Ended with the signal's code and nothing left; or, when the signal came too late, every file in place and whole.
+    /// What is there beside the capture.
+    std::vector<std::string> written() const {
+        std::vector<std::string> names = folder.names();
+        std::erase(names, "s.exr");
+        return names;
+    }
+
+    /// `outputs`: the mesh first. Ended with the signal's code and nothing left; or, when the signal came too late, every file in place and whole.
     bool interrupted(const OnTerminal& ran, int signal, const std::vector<std::string>& outputs) {
         EXPECT_TRUE(WIFEXITED(ran.status)) << ran.output;
         const int code = WEXITSTATUS(ran.status);
         EXPECT_TRUE(code == 128 + signal || code == 0) << code << ran.output;
         EXPECT_EQ(ran.output.find("glcast: interrupted") != std::string::npos, code != 0) << ran.output;
-        if (code != 0 && folder.names() == std::vector<std::string>{"s.exr"}) return true;
-        std::vector<std::string> whole = outputs;
-        whole.push_back("s.exr");
-        EXPECT_EQ(folder.names(), whole) << ran.output;
-        for (const std::string& name : outputs) {
-            EXPECT_NO_THROW(read_levels(file(name)));
-            std::filesystem::remove(file(name));
-        }
+        if (code != 0 && written().empty()) return true;
+        std::vector<std::string> sorted = outputs;
+        std::sort(sorted.begin(), sorted.end());
+        EXPECT_EQ(written(), sorted) << ran.output;
+        EXPECT_NO_THROW(read_all_levels(file(outputs.front())));
+        for (const std::string& name : written()) std::filesystem::remove(file(name));
         return false;
     }
     Folder folder;
@@ -94,13 +100,17 @@ TEST_F(Interrupt, AtEveryStageNothingIsLeft) {
 }
 
 TEST_F(Interrupt, WhileFilesAreWrittenAllOrNothingIsLeft) {
-    const std::vector<std::vector<std::string>> outputs = {
-        {"o.glb", "o_LOD1.glb"}, {"o.obj", "o_LOD1.obj"}, {"o.ply", "o_LOD1.ply"}};
-    for (const auto& names : outputs)
+    for (const std::string ending : {"glb", "obj", "ply"}) {
+        const std::vector<std::string> mesh{"mesh", file("s.exr"), "-o", file("o." + ending), "--ratio", "0.2,0.1"};
+        EXPECT_EQ(on_terminal(mesh, "", 0).status, 0);
+        std::vector<std::string> names = written(); // textures of .obj and .ply too
+        EXPECT_TRUE(std::erase(names, "o." + ending) == 1 &&
+                    std::find(names.begin(), names.end(), "o_LOD1." + ending) != names.end());
+        names.insert(names.begin(), "o." + ending);
+        for (const std::string& name : names) std::filesystem::remove(file(name));
         for (const char* stage : {"measuring", "writing"})
-            interrupted(on_terminal({"mesh", file("s.exr"), "-o", file(names.front()), "--ratio", "0.2,0.1"}, stage,
-                                    SIGINT, {.without_tmpfile = true}),
-                        SIGINT, names);
+            interrupted(on_terminal(mesh, stage, SIGINT, {.without_tmpfile = true}), SIGINT, names);
+    }
 }
 
 TEST_F(Interrupt, AnIgnoredSignalStaysIgnored) {

@@ -46,21 +46,33 @@ TEST(GltfTransform, ReadsEveryLevel) {
              {Compression::none, Compression::quantize, Compression::meshopt}) {
             const auto path =
                 folder / ((has_texture ? "textured" : "plain") + std::to_string(int(compression)) + ".glb");
-            write_levels(path, has_texture ? textured : plain, {.compression = compression});
+            const auto& levels = has_texture ? textured : plain;
+            write_levels(path, levels, {.compression = compression, .one_file = true});
             files += " " + path.string();
+            for (const auto& file : write_levels(folder / ("each" + path.filename().string()), levels,
+                                                 {.compression = compression}))
+                files += " " + file.string();
         }
     const Ran ran = run(GLCAST_NODE " " GLCAST_TRANSFORM + files + " 2>&1");
     ASSERT_EQ(ran.status, 0) << ran.output;
     const auto found = nlohmann::json::parse(ran.output, nullptr, false);
-    ASSERT_EQ(found.size(), 6u) << ran.output;
+    ASSERT_EQ(found.size(), 18u) << ran.output;
     for (std::size_t k = 0; k < 6; ++k) {
-        SCOPED_TRACE("file " + std::to_string(k));
+        SCOPED_TRACE("run " + std::to_string(k));
         const auto& levels = k < 3 ? plain : textured;
-        ASSERT_EQ(found[k]["levels"].size(), 2u);
-        expect_level(found[k]["levels"][0], levels[0], 96, 48);
-        expect_level(found[k]["levels"][1], levels[1], 12, 8);
-        const auto sizes =
-            k < 3 ? nlohmann::json::array() : nlohmann::json({{128, 128}, {128, 128}, {64, 64}, {64, 64}});
-        EXPECT_EQ(found[k]["textures"], sizes);
+        const auto &both = found[3 * k], &fine = found[3 * k + 1], &coarse = found[3 * k + 2];
+        ASSERT_EQ(both["levels"].size(), 2u);
+        ASSERT_EQ(fine["levels"].size(), 1u);
+        ASSERT_EQ(coarse["levels"].size(), 1u);
+        expect_level(both["levels"][0], levels[0], 96, 48);
+        expect_level(both["levels"][1], levels[1], 12, 8);
+        expect_level(fine["levels"][0], levels[0], 96, 48);
+        expect_level(coarse["levels"][0], levels[1], 12, 8);
+        const auto pictures = [&](const nlohmann::json& sizes) {
+            return k < 3 ? nlohmann::json::array() : sizes;
+        };
+        EXPECT_EQ(both["textures"], pictures({{128, 128}, {128, 128}, {64, 64}, {64, 64}}));
+        EXPECT_EQ(fine["textures"], pictures({{128, 128}, {128, 128}}));
+        EXPECT_EQ(coarse["textures"], pictures({{64, 64}, {64, 64}}));
     }
 }

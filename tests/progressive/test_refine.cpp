@@ -21,9 +21,9 @@ class Refine : public testing::Test {
     void SetUp() override {
         ASSERT_EQ(write_nested(folder / "cast.exr", 48), "");
         const Ran ran = glcast_run("mesh " + at("cast.exr") + " -o " + at("levels.ply") + " --pm " +
-                                   at("all.glpm") + " --triangles 4000,1000,300");
+                                   at("all.glpm") + " --texture none --triangles 4000,1000,300");
         ASSERT_EQ(ran.status, 0) << ran.output;
-        ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("full.ply") + " --full").status, 0);
+        ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("full.ply") + " --full --texture none").status, 0);
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     /// Without what says which levels were written together.
@@ -72,14 +72,26 @@ TEST_F(Refine, MorphsBetweenLevels) {
 }
 
 TEST_F(Refine, OpenMeshRefinesItsFormatToTheFullSurface) {
-    ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("x.glb") + " --pm " + at("all.pm")).status,
-              0);
+    const Json json =
+        json_of("mesh " + at("cast.exr") + " -o " + at("x.glb") + " --pm " + at("all.pm") + " --triangles 4000");
+    EXPECT_EQ(json["levels"].size(), 1u);
     const auto refined = test::refined_by_openmesh(bytes("all.pm"));
     EXPECT_EQ(refined.base_triangles, 500u);
     EXPECT_TRUE(refined.manifold);
     const Mesh full = read_mesh(folder / "full.ply");
     EXPECT_EQ(refined.triangles.size(), full.triangles.size());
     EXPECT_EQ(refined.positions.size(), full.positions.size());
+}
+
+TEST_F(Refine, TheBaseIsTheCoarsestLevelWhereThatHasFewer) {
+    const Json json = json_of("mesh " + at("cast.exr") + " -o " + at("x.ply") + " --texture none --pm " + at("x.glpm"));
+    const Json coarsest = json["levels"].back();
+    ASSERT_GE(json["levels"].size(), 2u);
+    ASSERT_LT(coarsest["triangles"], 500) << "three pixels wide, it needs no more";
+    const Json info = json_of("info " + at("x.glpm"));
+    EXPECT_EQ(info["base"]["triangles"], coarsest["triangles"]);
+    EXPECT_EQ(json_of("refine " + at("x.glpm") + " -o " + at("y.ply") + " --triangles 1")["level"], 0);
+    EXPECT_TRUE(bytes("y.ply") == bytes("x_LOD" + std::to_string(json["levels"].size() - 1) + ".ply"));
 }
 
 TEST_F(Refine, SaysThatAFileIsCutOff) {
@@ -108,8 +120,8 @@ TEST_F(Refine, RefusesInOneLine) {
     expect_refused("refine " + at("short.glpm") + " -o " + at("x.ply"), 1, "cut off before its base mesh");
     expect_refused("refine " + at("full.ply") + " -o " + at("x.ply"), 1,
                    "is no progressive mesh of glcast (.glpm)");
-    expect_refused("refine " + at("nowhere.glpm") + " -o " + at("x.ply"), 1, "No such file");
-    expect_refused("refine " + at("all.glpm") + " -o " + at("x.stl"), 1, "name it .glb, .obj, .ply or .off");
+    expect_refused("refine " + at("nowhere.glpm") + " -o " + at("x.ply"), 1, "no such file");
+    expect_refused("refine " + at("all.glpm") + " -o " + at("x.xyz"), 1, "name it .glb, .obj, .ply");
     expect_refused("refine " + at("all.glpm") + " -o " + at("x.ply") + " --to 100 --fraction 0.5", 1,
                    "--to needs");
     expect_refused("refine " + at("all.glpm") + " -o " + at("x.ply") + " --edges 9 --ratio 0.5", 2,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_io.h"
 
 namespace glcast::samples {
@@ -36,14 +37,16 @@ inline Mesh ball(double radius, std::uint32_t around) {
     return m;
 }
 
-/// Levels of 16128, 960 and 224 triangles; the last is too large by 0.2 everywhere and has a name that is no name.
-inline void write_balls(const std::string& path) {
+/// Levels of 16128, 960 and 224 triangles, a file each or all in one; the last is too large by 0.2 everywhere and has
+/// a name that is no name.
+inline void write_balls(const std::string& path, bool one_file = false) {
     std::vector<Level> levels(3);
     levels[0].mesh = ball(1, 128), levels[0].name = "level 0";
     levels[1].mesh = ball(1, 32), levels[1].name = "level 1";
     levels[2].mesh = ball(1.2, 16), levels[2].name = "</script><script>throw 1</script>";
     levels[2].error.mean = levels[2].error.max = 0.2;
-    write_levels(path, levels);
+    if (!one_file) join_as_set(levels);
+    write_levels(path, levels, {.one_file = one_file});
 }
 
 } // namespace glcast::samples

@@ -46,10 +46,10 @@ class ViewCommand : public testing::Test {
 #ifndef GLCAST_PAGE
 TEST_F(ViewCommand, SaysWhatIsMissing) {
     expect_one_line(view(file("s.glb") + " -o " + file("s.html")), 1, "npm ci");
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"s.glb"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"s.glb", "s_LOD1.glb", "s_LOD2.glb"}));
 }
 #else
-TEST_F(ViewCommand, LevelsOfOneFile) {
+TEST_F(ViewCommand, LevelsOfOneSet) {
     const Json told = json_of(file("s.glb") + " -o " + file("s.html"));
     EXPECT_EQ(told["bytes"], std::filesystem::file_size(file("s.html")));
     EXPECT_EQ(told["views"], 0);
@@ -64,8 +64,24 @@ TEST_F(ViewCommand, LevelsOfOneFile) {
     EXPECT_EQ(told["levels"][0]["glbBytes"], std::filesystem::file_size(file("one.glb")));
 }
 
+TEST_F(ViewCommand, LevelsOfASetAreThoseOfOneFile) {
+    write_balls(file("one.glb"), true);
+    const Json set = json_of(file("s.glb") + " -o " + file("s.html"));
+    const Json one = json_of(file("one.glb") + " -o " + file("one.html"));
+    ASSERT_EQ(set["levels"].size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (const char* what : {"name", "triangles", "maxError", "pageBytes"})
+            EXPECT_EQ(set["levels"][k][what], one["levels"][k][what]) << k << what;
+    const Json alone = json_of(file("s_LOD1.glb") + " -o " + file("alone.html"));
+    ASSERT_EQ(alone["levels"].size(), 1u) << "named alone it is that level alone";
+    EXPECT_EQ(alone["levels"][0]["triangles"], 960);
+    ASSERT_EQ(view(file("s") + "*.glb -o " + file("all.html")).status, 0);
+    EXPECT_TRUE(read_text(file("all.html")) == read_text(file("s.html"))) << "named too, they are not there twice";
+}
+
 TEST_F(ViewCommand, FilesAreLevelsFinestFirst) {
-    const std::vector<Level> levels = read_levels(file("s.glb"));
+    const std::vector<Level> levels = read_all_levels(file("s.glb"));
+    ASSERT_EQ(levels.size(), 3u);
     write_levels(file("fine.ply"), std::span(&levels[0], 1));
     write_levels(file("coarse.off"), std::span(&levels[2], 1));
     const Json told = json_of(file("coarse.off") + " " + file("fine.ply") + " -o " + file("s.html"));

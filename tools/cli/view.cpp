@@ -9,6 +9,7 @@
 #include "tools/deviation/deviation.h"
 #include "tools/deviation/level_error.h"
 #include "tools/io/capture_reader.h"
+#include "tools/io/level_set.h"
 #include "tools/io/mesh_io.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/view/page.h"
@@ -53,6 +54,19 @@ std::vector<Level> levels_of(const std::string& file) {
     PipelineOptions how;
     how.stage = progress_of_stages();
     return std::move(mesh_capture(file, how).levels);
+}
+
+/// Those that another of them brings along, as a level of its set, are not shown twice (gears*.glb of a shell).
+void leave_out_found(std::vector<std::string>& files) {
+    std::vector<std::filesystem::path> found;
+    for (const std::string& file : files)
+        for (auto& beside : levels_beside(file, set_of_file(file))) found.push_back(std::move(beside));
+    std::erase_if(files, [&](const std::string& file) {
+        return std::any_of(found.begin(), found.end(), [&](const std::filesystem::path& other) {
+            std::error_code ignored;
+            return std::filesystem::equivalent(file, other, ignored);
+        });
+    });
 }
 
 /// All levels of all files, finest first. What files say of errors counts for their own level 0 alone.
@@ -137,8 +151,9 @@ void say_page(const Options& options, const PageInput& input, const Page& page) 
         (input.views.empty() ? "no captured views; --capture FILE.exr adds them" : "six captured views"));
 }
 
-int view(const Options& options) {
+int view(Options options) {
     for (const std::string& file : options.files) require_file(file);
+    leave_out_found(options.files);
     if (!options.capture.empty()) require_file(options.capture);
     check_output(options);
     const std::string capture = capture_of(options);
@@ -171,7 +186,7 @@ Run declare_view(CLI::App& app) {
                "glcast mesh does without options. Of several files, each is a level, the one with most triangles level 0.\n"
                "Sizes: 5 to 12 bytes a triangle, and 0.55 MB for the page itself.");
     app.add_option("file", options->files,
-                   "mesh with its levels (.glb), one mesh a level (.glb, .obj, .ply, .off, .stl), or a capture (.exr)")
+                   "mesh (.glb, .obj, .ply, .off, .stl) with the levels beside it, several that are a level each, or a capture (.exr)")
         ->required();
     app.add_option("-o,--output", options->output, "page to write (.html)")->required();
     app.add_option("--capture", options->capture, "capture (.exr) whose six views stand beside the cast");
