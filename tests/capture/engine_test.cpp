@@ -245,7 +245,8 @@ TEST_F(Engine, NoFramebufferObjects) {
 TEST_F(Engine, AGivenBoxThatMissesTheSceneIsAnError) {
     EngineOptions options = small_options();
     options.box = Box{glm::dvec3(50), 1};
-    EXPECT_EQ(capture(gl, sphere, options).report.error, "nothing solid was drawn");
+    EXPECT_EQ(capture(gl, sphere, options).report.error,
+              "nothing solid was drawn inside the box that was asked for, from (50, 50, 50) to (51, 51, 51)");
     options.box = Box{glm::dvec3(0), 0};
     EXPECT_EQ(capture(gl, sphere, options).report.error, "the box has no size");
 }

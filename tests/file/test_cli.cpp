@@ -124,7 +124,7 @@ TEST_F(Command, RefusalsAreOneLineAndLeaveNothing) {
     expect_one_line(glcast_run("mesh " + file("cut.exr") + " -o " + file("o.glb")), 1, "cut.exr");
     expect_one_line(glcast_run("mesh " + file("none.exr") + " -o " + file("o.glb")), 1, "no such file");
     expect_one_line(glcast_run("mesh " + file("bad.ply") + " -o " + file("o.glb")), 1, "no OpenEXR");
-    expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("o.stl")), 1, "name it");
+    expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("o.stx")), 1, "name it");
     expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("no/o.glb")), 1, "No such file");
     expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("folder.glb")), 1, "directory");
     expect_one_line(glcast_run("info " + file("bad.ply")), 1, "bad.ply");

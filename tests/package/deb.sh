@@ -39,7 +39,8 @@ version=$("$root/usr/bin/glcast" --version)
 timeout 60 "$root/usr/bin/glcast-run" -n 32 -o a.exr --headless --quit --timeout 50 -- \
     "$build/fixtures/fixture-glx" --shape teapot || fail "glcast-run failed"
 timeout 60 "$root/usr/bin/glcast" mesh a.exr -o a.glb || fail "glcast mesh failed"
-timeout 60 "$root/usr/bin/glcast" info a.glb --json | grep -q '"closedManifold": true' || fail "no closed mesh"
+timeout 60 "$root/usr/bin/glcast" info a.glb --json >info.json || fail "glcast info failed"
+grep -q '"closedManifold": true' info.json || fail "no closed mesh" # no pipe: grep -q would close it early
 timeout 60 "$root/usr/bin/glcast" render a.glb -o a.png --size 32 || fail "glcast render failed"
 sh "$source/tests/package/consumer.sh" "$root/usr" "$source" "$work/consumer" || fail "the CMake package does not work"
 

@@ -77,7 +77,8 @@ TEST_P(Stderr, is_left_alone) {
     std::ofstream(folder / "status").close();
     std::filesystem::permissions(folder / "status", std::filesystem::perms::all);
     const Environment environment = {
-        {"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "16"}, {"GLCAST_STATUS", folder / "status"}};
+        {"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "16"}, {"GLCAST_STATUS", folder / "status"},
+        {"GLCAST_VERBOSE", "1"}}; // with a status file it speaks only then
     const Outcome plain = run_program({STDERRS, one.name}, {}, false);
     ASSERT_EQ(plain.exit_code, 0) << plain.out << plain.err;
     const Outcome outcome = run_program({STDERRS, one.name}, environment, true);
@@ -161,7 +162,7 @@ TEST(Messages, glcast_run_without_standard_descriptors) {
 TEST(Messages, glcast_run_says_what_could_not_be_said) {
     const TemporaryFolder folder;
     const Outcome outcome = run_program(
-        {GLCAST_RUN, "-o", folder / "cast.exr", "-n", "16", "--", STDERRS, "full_pipe"}, {}, false);
+        {GLCAST_RUN, "-o", folder / "cast.exr", "-n", "16", "--verbose", "--", STDERRS, "full_pipe"}, {}, false);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(
         outcome.err.find("glcast-run: 2 lines of the library did not go to the program's stderr: it is full"),

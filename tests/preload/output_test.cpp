@@ -98,7 +98,10 @@ TEST(Output, glcast_run_refuses_devices_and_boxes_alike) {
         EXPECT_NE(outcome.exit_code, 0);
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
-    says({"-o", "/dev/full"}, "it is no regular file");
+    says({"-o", "/dev/full"}, "name it .exr"); // no device has such an ending, unless a link gives it one
+    const TemporaryFolder folder;
+    fs::create_symlink("/dev/full", folder / "full.exr");
+    says({"-o", folder / "full.exr"}, "it is no regular file");
     says({"--box=-1e308,-1e308,-1e308,1e308,1e308,1e308"}, "beyond 1e30");
     says({"--max-seconds", "0"}, "--max-seconds");
 }

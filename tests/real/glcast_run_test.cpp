@@ -166,7 +166,7 @@ TEST_F(GlcastRun, WritesControlCharactersOut) {
 
 TEST_F(GlcastRun, TellsAScriptInJson) {
     const CommandResult cast = run({"--json", "--quit", "-o", capture(), "--", "sh", "-c", "echo drawn; exec sleep " + nap},
-                                   "hooked GLX;figures (n=8);captured 3 " + capture(), "sh");
+                                   "hooked GLX;figures (n=8);captured 3 " + capture(), "sleep"); // when it has printed
     EXPECT_EQ(cast.exit_code, 0) << cast.err;
     const auto told = nlohmann::json::parse(cast.out);
     EXPECT_EQ(told["program"], "sh");

@@ -101,14 +101,8 @@ class Shader {
         return mix(corner_colours(mesh, wedges, at.triangle), at.b, at.c);
     }
 
-    /// GL's two-sided light, which turns normals over by the winding and not by themselves.
     glm::vec3 normal(const Fragment& at, const glm::dvec3& back) const {
-        return glm::dot(glm::dvec3(face(at)), back) < 0 ? -front_normal(at) : front_normal(at);
-    }
-
-  private:
-    glm::vec3 front_normal(const Fragment& at) const {
-        if (!has_normals(mesh, wedges)) return face(at);
+        if (!has_normals(mesh, wedges)) return glm::dot(glm::dvec3(face(at)), back) < 0 ? -face(at) : face(at);
         const std::array<glm::vec3, 3> normals = corner_normals(mesh, wedges, at.triangle);
         const glm::vec3 smooth = unit(mix(normals, at.b, at.c));
         if (texture.empty() || texture.normal.rgb.empty()) return smooth;
@@ -124,6 +118,7 @@ class Shader {
         return unit(along * bent.x + across * bent.y + smooth * bent.z);
     }
 
+  private:
     glm::vec2 coordinates(const Fragment& at) const {
         return mix(texture.coordinates[at.triangle], at.b, at.c);
     }

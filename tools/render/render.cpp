@@ -67,6 +67,7 @@ Sphere bounds(const Mesh& mesh) {
 struct Drawable {
     std::vector<glm::vec3> positions, normals, colours;
     std::vector<std::uint32_t> indices;
+    bool faceted = false; ///< by the normals of its triangles
 };
 
 Drawable prepare(const Mesh& mesh, const Wedges& wedges, const Sphere& sphere) {
@@ -85,6 +86,7 @@ Drawable prepare(const Mesh& mesh, const Wedges& wedges, const Sphere& sphere) {
         for (const Triangle& t : split.triangles) out.indices.insert(out.indices.end(), t.begin(), t.end());
         return out;
     }
+    out.faceted = true;
     for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
         const Triangle& t = mesh.triangles[number];
         std::array<glm::vec3, 3> colours;
@@ -112,7 +114,7 @@ void set_up_state(const GlTable& gl, const Drawable& mesh) {
     gl.Enable(GL_COLOR_MATERIAL);
     gl.ColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
     gl.LightModelfv(GL_LIGHT_MODEL_AMBIENT, dark);
-    gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+    gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, mesh.faceted); // normals that were drawn count as they are
     gl.MatrixMode(GL_MODELVIEW);
     gl.LoadIdentity();
     gl.Lightfv(GL_LIGHT0, GL_POSITION, light_direction);

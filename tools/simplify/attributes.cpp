@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tools/mesh/point_triangle.h"
+#include "tools/simplify/corners.h"
 
 namespace glcast {
 namespace {
@@ -48,6 +49,11 @@ SurfaceWalk::Place SurfaceWalk::nearest(const glm::dvec3& point, std::uint32_t s
         nearer = best < before;
     }
     return place;
+}
+
+glm::dvec3 SurfaceWalk::nearest_point(const glm::dvec3& point, std::uint32_t start) const {
+    const Place place = nearest(point, start);
+    return Corners(mesh, mesh.triangles[place.triangle]).at(place.weights);
 }
 
 /// The triangles at a vertex: is one of them nearer than `best` (squared)?

@@ -24,6 +24,7 @@ class SurfaceWalk {
     };
     /// Of the surface's points the nearest that a walk downhill from vertex `start` comes to.
     Place nearest(const glm::dvec3& point, std::uint32_t start) const;
+    glm::dvec3 nearest_point(const glm::dvec3& point, std::uint32_t start) const;
 
     /// The triangles at a vertex.
     std::span<const std::uint32_t> around(std::uint32_t vertex) const {

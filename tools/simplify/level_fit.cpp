@@ -27,9 +27,10 @@ constexpr double folded = -0.985; // cosine of the normals at an edge: ten degre
 
 } // namespace
 
-LevelFit::LevelFit(Mesh& level, bool closed, std::vector<Sample>&& of_surface, double apart)
+LevelFit::LevelFit(Mesh& level, bool closed, std::vector<Sample>&& of_surface, double apart,
+                   const SurfaceWalk& along)
     : mesh(level), walk(std::make_unique<SurfaceWalk>(level)), samples(std::move(of_surface)), spacing(apart),
-      tree(samples, apart), places(samples.size()), guard(surface(), closed) {}
+      tree(samples, apart, along), places(samples.size()), guard(surface(), closed) {}
 
 double LevelFit::lay() {
     faced.clear();

@@ -16,8 +16,9 @@ namespace glcast {
 class LevelFit {
   public:
     /// Changes `level`, which must outlive this. `samples` are spread evenly over the surface, `spacing`
-    /// apart.
-    LevelFit(Mesh& level, bool closed, std::vector<Sample>&& samples, double spacing);
+    /// apart, of which `surface` is a walk that must outlive this too.
+    LevelFit(Mesh& level, bool closed, std::vector<Sample>&& samples, double spacing,
+             const SurfaceWalk& surface);
 
     /// Lays every sample on the level and points of the level on the surface; the sum of their squared
     /// distances, those of the level's points as if there were as many to an area as there are samples.

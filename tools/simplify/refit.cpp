@@ -27,14 +27,14 @@ std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint3
     tbb::parallel_for(std::size_t(0), samples.size(), [&](std::size_t i) {
         const Triangle& triangle = over.surface.triangles[points[i].triangle];
         const Corners at(over.surface, triangle);
-        samples[i] = {at.at(points[i].weights), unit(at.normal()), became[triangle[0]]};
+        samples[i] = {at.at(points[i].weights), unit(at.normal()), became[triangle[0]], triangle[0]};
     });
     return samples;
 }
 
 } // namespace
 
-void refit(Collapser::Remainder& remainder, const SurfaceArea& surface) {
+void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const SurfaceWalk& along) {
     const std::size_t vertices = remainder.positions.size();
     const std::size_t count = std::clamp(samples_per_vertex * vertices, least_samples, most_samples);
     if (count < too_few_per_vertex * vertices) return;
@@ -43,7 +43,8 @@ void refit(Collapser::Remainder& remainder, const SurfaceArea& surface) {
     level.triangles = remainder.triangles;
     std::vector<Sample> samples = spread(surface, remainder.became, count);
     if (samples.empty()) return;
-    LevelFit fit(level, remainder.closed, std::move(samples), std::sqrt(surface.total() / double(count)));
+    LevelFit fit(level, remainder.closed, std::move(samples), std::sqrt(surface.total() / double(count)),
+                 along);
     const std::size_t rounds = std::min(most_rounds, most_walks / count);
     double least =
         std::numeric_limits<double>::infinity(); // what a round makes of it may be worse: the best is kept

@@ -20,8 +20,8 @@ double SampleTree::Box::squared_distance(const glm::dvec3& point) const {
     return glm::dot(off, off);
 }
 
-SampleTree::SampleTree(std::span<const Sample> of, double apart)
-    : samples(of), spacing(apart), order(of.size()) {
+SampleTree::SampleTree(std::span<const Sample> of, double apart, const SurfaceWalk& walk)
+    : samples(of), spacing(apart), surface(walk), order(of.size()) {
     std::iota(order.begin(), order.end(), 0);
     boxes.resize(2 * std::bit_ceil((order.size() + leaf_size - 1) / leaf_size));
     build(1, 0, order.size());
@@ -94,13 +94,13 @@ glm::dvec3 SampleTree::way_to_surface(const glm::dvec3& point, const glm::dvec3&
         search(point, near, within, agrees);
     }
     const glm::dvec3 off = samples[near].at - point;
-    const auto shortened = [&](const glm::dvec3& way) {
-        const double length = glm::length(way);
-        return length > spacing ? way * (1 - spacing / length) : glm::dvec3(0);
-    };
-    if (!agrees(near)) return shortened(off); // its plane may end in between, at a crease
-    const glm::dvec3 up = glm::dot(off, samples[near].normal) * samples[near].normal;
-    return up + shortened(off - up);
+    glm::dvec3 up(0); // where none agrees, its plane may end in between, at a crease
+    if (agrees(near)) up = glm::dot(off, samples[near].normal) * samples[near].normal;
+    const glm::dvec3 along = off - up;
+    // A way along the surface would draw in what lies on a crease, or a corner, that no sample is near.
+    if (glm::dot(along, along) > spacing * spacing)
+        return surface.nearest_point(point, samples[near].on) - point;
+    return up;
 }
 
 } // namespace glcast

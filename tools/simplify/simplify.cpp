@@ -121,8 +121,8 @@ std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarg
             collapser->reduce_to(limits[level]);
             Collapser::Remainder remainder = collapser->remainder();
             if (options.refit && !area) area.emplace(mesh);
-            if (options.refit) refit(remainder, *area);
             if (!walk) walk.emplace(mesh);
+            if (options.refit) refit(remainder, *area, *walk);
             levels[level] = finished(std::move(remainder), *walk, last_stretch.normals(), options);
         }
         if (log) *log = finished(collapser->take_log(), *walk, last_stretch.normals());
@@ -172,7 +172,7 @@ Mesh Simplification::level(std::size_t triangles, bool fitted) const {
         own.normal_weight = weights_of(impl->options).normal;
         return simplify(impl->mesh, {SimplifyTarget::Unit::triangles, double(triangles)}, own);
     }
-    if (fitted && own.refit) refit(*remainder, *impl->area);
+    if (fitted && own.refit) refit(*remainder, *impl->area, *impl->walk);
     return finished(std::move(*remainder), *impl->walk, impl->mesh.normals, own);
 }
 
