@@ -70,7 +70,8 @@ class Interrupt : public testing::Test {
         return names;
     }
 
-    /// `outputs`: the mesh first. Ended with the signal's code and nothing left; or, when the signal came too late, every file in place and whole.
+    /// `outputs`: the mesh first. Ended with the signal's code and nothing left; or, when the signal came too
+    /// late, every file in place and whole.
     bool interrupted(const OnTerminal& ran, int signal, const std::vector<std::string>& outputs) {
         EXPECT_TRUE(WIFEXITED(ran.status)) << ran.output;
         const int code = WEXITSTATUS(ran.status);
@@ -101,7 +102,8 @@ TEST_F(Interrupt, AtEveryStageNothingIsLeft) {
 
 TEST_F(Interrupt, WhileFilesAreWrittenAllOrNothingIsLeft) {
     for (const std::string ending : {"glb", "obj", "ply"}) {
-        const std::vector<std::string> mesh{"mesh", file("s.exr"), "-o", file("o." + ending), "--ratio", "0.2,0.1"};
+        const std::vector<std::string> mesh{"mesh",    file("s.exr"), "-o", file("o." + ending),
+                                            "--ratio", "0.2,0.1"};
         EXPECT_EQ(on_terminal(mesh, "", 0).status, 0);
         std::vector<std::string> names = written(); // textures of .obj and .ply too
         EXPECT_TRUE(std::erase(names, "o." + ending) == 1 &&

@@ -23,7 +23,9 @@ class Refine : public testing::Test {
         const Ran ran = glcast_run("mesh " + at("cast.exr") + " -o " + at("levels.ply") + " --pm " +
                                    at("all.glpm") + " --texture none --triangles 4000,1000,300");
         ASSERT_EQ(ran.status, 0) << ran.output;
-        ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("full.ply") + " --full --texture none").status, 0);
+        ASSERT_EQ(
+            glcast_run("mesh " + at("cast.exr") + " -o " + at("full.ply") + " --full --texture none").status,
+            0);
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     /// Without what says which levels were written together.
@@ -72,8 +74,8 @@ TEST_F(Refine, MorphsBetweenLevels) {
 }
 
 TEST_F(Refine, OpenMeshRefinesItsFormatToTheFullSurface) {
-    const Json json =
-        json_of("mesh " + at("cast.exr") + " -o " + at("x.glb") + " --pm " + at("all.pm") + " --triangles 4000");
+    const Json json = json_of("mesh " + at("cast.exr") + " -o " + at("x.glb") + " --pm " + at("all.pm") +
+                              " --triangles 4000");
     EXPECT_EQ(json["levels"].size(), 1u);
     const auto refined = test::refined_by_openmesh(bytes("all.pm"));
     EXPECT_EQ(refined.base_triangles, 500u);
@@ -84,7 +86,8 @@ TEST_F(Refine, OpenMeshRefinesItsFormatToTheFullSurface) {
 }
 
 TEST_F(Refine, TheBaseIsTheCoarsestLevelWhereThatHasFewer) {
-    const Json json = json_of("mesh " + at("cast.exr") + " -o " + at("x.ply") + " --texture none --pm " + at("x.glpm"));
+    const Json json =
+        json_of("mesh " + at("cast.exr") + " -o " + at("x.ply") + " --texture none --pm " + at("x.glpm"));
     const Json coarsest = json["levels"].back();
     ASSERT_GE(json["levels"].size(), 2u);
     ASSERT_LT(coarsest["triangles"], 500) << "three pixels wide, it needs no more";

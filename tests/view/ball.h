@@ -37,8 +37,8 @@ inline Mesh ball(double radius, std::uint32_t around) {
     return m;
 }
 
-/// Levels of 16128, 960 and 224 triangles, a file each or all in one; the last is too large by 0.2 everywhere and has
-/// a name that is no name.
+/// Levels of 16128, 960 and 224 triangles, a file each or all in one; the last is too large by 0.2 everywhere
+/// and has a name that is no name.
 inline void write_balls(const std::string& path, bool one_file = false) {
     std::vector<Level> levels(3);
     levels[0].mesh = ball(1, 128), levels[0].name = "level 0";

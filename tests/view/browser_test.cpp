@@ -121,7 +121,8 @@ TEST(Page, TexturesInChromium) {
 TEST(Page, InChromium) {
     const Folder folder;
     expect_well(GLCAST_PAGE_TEST, write_page(folder));
-    expect_saved((folder / "s_i_&_LOD1.glb").string(), read_levels((folder / "s<i>&_LOD1.glb").string()).at(0), 3);
+    expect_saved((folder / "s_i_&_LOD1.glb").string(),
+                 read_levels((folder / "s<i>&_LOD1.glb").string()).at(0), 3);
 }
 
 TEST(Page, Axe) {

@@ -76,7 +76,8 @@ TEST_F(ViewCommand, LevelsOfASetAreThoseOfOneFile) {
     ASSERT_EQ(alone["levels"].size(), 1u) << "named alone it is that level alone";
     EXPECT_EQ(alone["levels"][0]["triangles"], 960);
     ASSERT_EQ(view(file("s") + "*.glb -o " + file("all.html")).status, 0);
-    EXPECT_TRUE(read_text(file("all.html")) == read_text(file("s.html"))) << "named too, they are not there twice";
+    EXPECT_TRUE(read_text(file("all.html")) == read_text(file("s.html")))
+        << "named too, they are not there twice";
 }
 
 TEST_F(ViewCommand, FilesAreLevelsFinestFirst) {

@@ -56,7 +56,8 @@ std::vector<Level> levels_of(const std::string& file) {
     return std::move(mesh_capture(file, how).levels);
 }
 
-/// Those that another of them brings along, as a level of its set, are not shown twice (gears*.glb of a shell).
+/// Those that another of them brings along, as a level of its set, are not shown twice (gears*.glb of a
+/// shell).
 void leave_out_found(std::vector<std::string>& files) {
     std::vector<std::filesystem::path> found;
     for (const std::string& file : files)
@@ -186,7 +187,8 @@ Run declare_view(CLI::App& app) {
                "glcast mesh does without options. Of several files, each is a level, the one with most triangles level 0.\n"
                "Sizes: 5 to 12 bytes a triangle, and 0.55 MB for the page itself.");
     app.add_option("file", options->files,
-                   "mesh (.glb, .obj, .ply, .off, .stl) with the levels beside it, several that are a level each, or a capture (.exr)")
+                   "mesh (.glb, .obj, .ply, .off, .stl) with the levels beside it, several that are a level "
+                   "each, or a capture (.exr)")
         ->required();
     app.add_option("-o,--output", options->output, "page to write (.html)")->required();
     app.add_option("--capture", options->capture, "capture (.exr) whose six views stand beside the cast");
