@@ -241,19 +241,21 @@ double LevelFit::sharpest(std::span<const Triangle> triangles, const SurfaceChan
         return glm::cross(at[1] - at[0], at[2] - at[0]);
     };
     double least = 1;
-    for (const Triangle& t : triangles)
+    for (const Triangle& t : triangles) {
+        const glm::dvec3 own = normal(t);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t from = t[(k + 1) % 3], to = t[k]; // as the neighbour runs
             const auto look = [&](const Triangle& other) {
                 for (std::size_t j = 0; j < 3; ++j)
                     if (other[j] == from && other[(j + 1) % 3] == to)
-                        least = std::min(least, cosine(normal(t), normal(other)));
+                        least = std::min(least, cosine(own, normal(other)));
             };
             for (const Triangle& other : triangles) look(other);
             for (const std::uint32_t other : walk->around(from))
                 if (std::ranges::find(change.replaced, other) == change.replaced.end())
                     look(mesh.triangles[other]);
         }
+    }
     return least;
 }
 
