@@ -44,7 +44,8 @@ int main_axis(const glm::vec3& v) {
     return axis;
 }
 
-HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, int axis, double reach) {
+HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, int axis,
+                             double reach) {
     if (!rays.complete) return {};
     const std::array<int, 3> sample = {int(std::lround(at.x)), int(std::lround(at.y)),
                                        int(std::lround(at.z))};

@@ -15,10 +15,11 @@ struct HitBehind {
 int main_axis(const glm::vec3& v);
 
 /// A narrow gap, or the mouth of what nobody can see into, is closed by surface that nobody drew
-/// (exterior.h). Where the surface at most `reach` from `at` along the axis, on the side to which `facing` (unit,
-/// outward) points, is such, the first hit behind it on that axis's ray, whichever way it faces: what one sees who
-/// looks in. None where the surface was drawn, where nothing lies behind it, or where the rays do not know
-/// every surface.
-HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, int axis, double reach);
+/// (exterior.h). Where the surface at most `reach` from `at` along the axis, on the side to which `facing`
+/// (unit, outward) points, is such, the first hit behind it on that axis's ray, whichever way it faces: what
+/// one sees who looks in. None where the surface was drawn, where nothing lies behind it, or where the rays
+/// do not know every surface.
+HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, int axis,
+                             double reach);
 
 } // namespace glcast

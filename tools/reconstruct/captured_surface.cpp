@@ -121,8 +121,8 @@ template <int axis> class Walk {
     const glm::vec3 facing;
 };
 
-/// What lies behind a closing at `start`: along the axis, where its rays have found no surface; else along another,
-/// where the closing is nearer than what they found, as in a slit whose wall faces the same way.
+/// What lies behind a closing at `start`: along the axis, where its rays have found no surface; else along
+/// another, where the closing is nearer than what they found, as in a slit whose wall faces the same way.
 HitBehind nearest_closing(const Rays& rays, const glm::dvec3& start, const glm::vec3& facing, int axis,
                           const std::optional<Plane>& found, double reach) {
     if (!found) {

@@ -20,9 +20,9 @@ float angle_at(const Mesh& mesh, std::uint32_t corner) {
     return float(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-/// The normal of a vertex that is least turned from the triangle most turned from it (Aubry and Löhner 2008), by
-/// steps from `mean` towards that triangle, as Badoiu and Clarkson 2003 find the middle of a ball around points; as
-/// far as needed.
+/// The normal of a vertex that is least turned from the triangle most turned from it (Aubry and Löhner 2008),
+/// by steps from `mean` towards that triangle, as Badoiu and Clarkson 2003 find the middle of a ball around
+/// points; as far as needed.
 glm::vec3 most_normal(const Neighbours& neighbours, const std::vector<glm::vec3>& normals, std::uint32_t v,
                       const glm::vec3& mean) {
     constexpr int steps = 64;
