@@ -152,31 +152,36 @@ std::vector<double> differences_of_rows(const Picture& sheet, int size) {
     return shares;
 }
 
+/// Normals that point up.
+void turn_over(Mesh& mesh, std::vector<ViewImage>& images) {
+    const auto turn = [](auto& normal) { normal *= normal.y > 0 ? -1.0f : 1.0f; };
+    for (glm::vec3& normal : mesh.normals) turn(normal);
+    for (ViewImage& image : images)
+        for (glm::vec4& normal : image.normal) {
+            const float drawn = normal.w;
+            turn(normal);
+            normal.w = drawn;
+        }
+}
+
 /// What was captured stands over what was drawn: same place, same scale, same light, and no tile turned or
 /// mirrored; also where normals were drawn away from the viewer.
 TEST(Sheet, CapturedViewsLieOverTheLevels) {
-    test::OsmesaContext context;
-    // Closed, as every cast is: of an open mesh beside it OSMesa lights the backs too.
-    fixtures::Scene scene(context.gl(), "spheres", fixtures::Way::immediate);
-    test::Cast cast = test::capture(
-        context.gl(), [&](const GlTable& gl) { scene.draw_shape(gl); }, test::small_options(128));
-    ASSERT_TRUE(cast.report.ok);
-    Level level{fixtures::truth("spheres"), "level 0", {}, 0, {}};
-    for (const bool turned_over : {false, true}) {
-        if (turned_over) { // where they point up
-            const auto turn = [](auto& normal) { normal *= normal.y > 0 ? -1.0f : 1.0f; };
-            for (glm::vec3& normal : level.mesh.normals) turn(normal);
-            for (ViewImage& image : cast.images)
-                for (glm::vec4& normal : image.normal) {
-                    const float drawn = normal.w;
-                    turn(normal);
-                    normal.w = drawn;
-                }
+    for (const std::string shape : {"spheres", "teapot"}) { // closed, and open: backs are seen
+        SCOPED_TRACE(shape);
+        test::OsmesaContext context;
+        fixtures::Scene scene(context.gl(), shape, fixtures::Way::immediate);
+        test::Cast cast = test::capture(
+            context.gl(), [&](const GlTable& gl) { scene.draw_shape(gl); }, test::small_options(128));
+        ASSERT_TRUE(cast.report.ok);
+        Level level{fixtures::truth(shape), "level 0", {}, 0, {}};
+        for (const bool turned_over : {false, true}) {
+            if (turned_over) turn_over(level.mesh, cast.images);
+            const CapturedViews captured{"captured", cast.images, cast.report.box};
+            constexpr int size = 100;
+            for (const double share : differences_of_rows(contact_sheet({&level, 1}, size, &captured), size))
+                EXPECT_LT(share, 0.1) << (turned_over ? "turned over" : "as they are");
         }
-        const CapturedViews captured{"captured", cast.images, cast.report.box};
-        constexpr int size = 100;
-        for (const double share : differences_of_rows(contact_sheet({&level, 1}, size, &captured), size))
-            EXPECT_LT(share, 0.1) << (turned_over ? "turned over" : "as they are");
     }
 }
 

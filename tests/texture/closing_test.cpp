@@ -58,6 +58,19 @@ TEST(Closing, ShowsTheFloorOfTheSlit) {
         }
 }
 
+/// Triangles of a coarse level over the end of a slit face its wall, which is farther off.
+TEST(Closing, IsNearerThanTheWallOfTheSlit) {
+    const Source source = painted(slit_block());
+    for (const float turned : {-1.0f, 1.0f})
+        for (const glm::dvec3& at : along_slit(-0.9)) {
+            const glm::vec3 facing = glm::normalize(glm::vec3(0.1f, 0.8f * turned, 0.7f));
+            const CapturedPoint seen = source.captured.look(at, facing, facing, reach);
+            ASSERT_TRUE(seen.found);
+            EXPECT_TRUE(seen.behind);
+            EXPECT_LT(glm::distance(seen.colour, glm::vec3(0, 1, 0)), 1e-3f);
+        }
+}
+
 TEST(Closing, ShowsTheFarWallOfAHollow) {
     const Source source = painted(slit_shell());
     for (const glm::dvec3& at : along_slit(0)) {

@@ -165,7 +165,8 @@ void spread_colours(Mesh& mesh, std::vector<std::uint8_t>& known) {
 
 /// What one sees who looks in where a vertex closes an opening.
 Attribute behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& surface_normal) {
-    const HitBehind there = hit_behind_closing(rays, at, surface_normal, reach_of_closing);
+    const HitBehind there =
+        hit_behind_closing(rays, at, surface_normal, main_axis(surface_normal), reach_of_closing);
     if (!there) return {};
     const AxisHits& hits = rays.axis[there.axis];
     return {unpack_colour(hits.colour[there.hit]), drawn_normal(hits, there.hit), surface_normal, true};

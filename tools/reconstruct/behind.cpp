@@ -35,6 +35,8 @@ class Column {
     const std::array<int, 3> first;
 };
 
+} // namespace
+
 int main_axis(const glm::vec3& v) {
     int axis = 0;
     for (const int k : {1, 2})
@@ -42,17 +44,17 @@ int main_axis(const glm::vec3& v) {
     return axis;
 }
 
-} // namespace
-
-HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, double reach) {
+HitBehind hit_behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3& facing, int axis,
+                             double reach) {
     if (!rays.complete) return {};
     const std::array<int, 3> sample = {int(std::lround(at.x)), int(std::lround(at.y)),
                                        int(std::lround(at.z))};
     if (!rays.inside(sample)) return {};
-    HitBehind found{main_axis(facing), no_hit};
+    HitBehind found{axis, no_hit, 0};
     const Column column(rays, found.axis, facing[found.axis] > 0 ? 1 : -1, sample);
     const std::optional<int> last = column.outermost_filled(int(reach));
     if (!last) return {};
+    found.away = std::abs(double(column.steps(float(at[axis]))) - (*last + 0.5));
     // A sheet has a sample of its own, and lies up to one from it.
     const float drawn_from = float(*last) - (column.filled(*last - 1) ? tolerance : 1),
                 drawn_to = float(*last + 1) + tolerance;

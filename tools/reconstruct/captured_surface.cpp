@@ -17,6 +17,7 @@ constexpr int steps = 6;            // of the walk to where a line meets the sur
 constexpr int outline = 3;          // samples: how far a coarse level may reach beyond what a view covers
 constexpr double arrived = 0.02;    // samples
 constexpr float steepest = 0.25f;   // cosine: views that see a surface flatter than this are not asked
+constexpr float looked_into = 0.5f; // cosine: openings are looked into along axes no farther from the facing
 constexpr float same_way = 0.2f;    // cosine between the asked and the found facing
 constexpr float across_line = 0.3f; // cosine: a line nearer to a plane's own directions is not followed
 constexpr float same_place = 1e-3f; // samples: the two sides of a sheet
@@ -120,6 +121,24 @@ template <int axis> class Walk {
     const glm::vec3 facing;
 };
 
+/// What lies behind a closing at `start`: along the axis, where its rays have found no surface; else along
+/// another, where the closing is nearer than what they found, as in a slit whose wall faces the same way.
+HitBehind nearest_closing(const Rays& rays, const glm::dvec3& start, const glm::vec3& facing, int axis,
+                          const std::optional<Plane>& found, double reach) {
+    if (!found) {
+        if (axis != main_axis(facing) && std::abs(facing[axis]) < looked_into) return {};
+        return hit_behind_closing(rays, start, facing, axis, reach);
+    }
+    const double away = std::abs(glm::dot(glm::dvec3(found->normal), found->at - start));
+    for (int other = 0; other < 3; ++other) {
+        const double cosine = std::abs(facing[other]);
+        if (other == axis || cosine < looked_into) continue;
+        const HitBehind there = hit_behind_closing(rays, start, facing, other, reach);
+        if (there && there.away * cosine < away) return there;
+    }
+    return {};
+}
+
 } // namespace
 
 CapturedSurface::CapturedSurface(Rays&& given, const Box& box, bool geometric_normals)
@@ -172,16 +191,16 @@ CapturedPoint CapturedSurface::find_from(const glm::dvec3& from, const glm::vec3
             const auto plane = axis == 0   ? Walk<0>(*rays, facing).run(start, along, reach, beside)
                                : axis == 1 ? Walk<1>(*rays, facing).run(start, along, reach, beside)
                                            : Walk<2>(*rays, facing).run(start, along, reach, beside);
+            if (look_behind && !beside)
+                if (const HitBehind there = nearest_closing(*rays, start, facing, axis, plane, reach))
+                    return shown_behind(start, facing, there);
             if (plane) return seen_at(axis, plane->at, plane->normal, plane->hit);
-            if (!look_behind || beside || axis != order[0]) continue;
-            if (const CapturedPoint there = behind(start, facing, reach); there.found) return there;
         }
     return {};
 }
 
-CapturedPoint CapturedSurface::behind(const glm::dvec3& start, const glm::vec3& facing, double reach) const {
-    const HitBehind there = hit_behind_closing(*rays, start, facing, reach);
-    if (!there) return {};
+CapturedPoint CapturedSurface::shown_behind(const glm::dvec3& start, const glm::vec3& facing,
+                                            const HitBehind& there) const {
     const AxisHits& hits = rays->axis[there.axis];
     CapturedPoint out;
     out.found = out.behind = true;

@@ -9,6 +9,7 @@
 namespace glcast {
 
 struct Rays;
+struct HitBehind;
 
 /// A point of the captured surface.
 struct CapturedPoint {
@@ -49,7 +50,8 @@ class CapturedSurface {
   private:
     CapturedPoint find_from(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                             double reach, bool look_behind) const;
-    CapturedPoint behind(const glm::dvec3& start, const glm::vec3& facing, double reach) const; ///< samples
+    CapturedPoint shown_behind(const glm::dvec3& start, const glm::vec3& facing,
+                               const HitBehind& there) const; ///< samples
     CapturedPoint seen_at(int axis, const glm::dvec3& at, const glm::vec3& plane, std::uint32_t hit) const;
     std::shared_ptr<const Rays> rays;
     Box box;

@@ -102,7 +102,8 @@ class Shader {
     }
 
     glm::vec3 normal(const Fragment& at, const glm::dvec3& back) const {
-        if (!has_normals(mesh, wedges)) return glm::dot(glm::dvec3(face(at)), back) < 0 ? -face(at) : face(at);
+        if (!has_normals(mesh, wedges))
+            return glm::dot(glm::dvec3(face(at)), back) < 0 ? -face(at) : face(at);
         const std::array<glm::vec3, 3> normals = corner_normals(mesh, wedges, at.triangle);
         const glm::vec3 smooth = unit(mix(normals, at.b, at.c));
         if (texture.empty() || texture.normal.rgb.empty()) return smooth;

@@ -25,11 +25,11 @@ struct SeenImage {
     std::vector<glm::vec3> normal; ///< model space, unit; 0 where nothing was drawn lit
 };
 
-/// The nearest surface of each pixel, either side of a triangle. Normals are those of wedges or vertices, turned by
-/// the normal map where there is one, as they are, also where they point away from the camera; so it is in what was
-/// captured. Else they are those of the triangles, towards the camera. Meshes without colours are grey.
-/// Coordinates of the texture are read bilinearly, without smaller copies. Throws std::runtime_error where
-/// texture or wedges and mesh do not go together.
+/// The nearest surface of each pixel, either side of a triangle. Normals are those of wedges or vertices,
+/// turned by the normal map where there is one, as they are, also where they point away from the camera; so
+/// it is in what was captured. Else they are those of the triangles, towards the camera. Meshes without
+/// colours are grey. Coordinates of the texture are read bilinearly, without smaller copies. Throws
+/// std::runtime_error where texture or wedges and mesh do not go together.
 SeenImage rasterise(const Mesh& mesh, const Texture& texture, const Wedges& wedges, const OrthoView& view);
 inline SeenImage rasterise(const Level& level, const OrthoView& view) {
     return rasterise(level.mesh, level.texture, level.wedges, view);

@@ -20,6 +20,31 @@ float angle_at(const Mesh& mesh, std::uint32_t corner) {
     return float(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
+/// The normal of a vertex that is least turned from the triangle most turned from it (Aubry and Löhner 2008),
+/// by steps from `mean` towards that triangle, as Badoiu and Clarkson 2003 find the middle of a ball around
+/// points; as far as needed.
+glm::vec3 most_normal(const Neighbours& neighbours, const std::vector<glm::vec3>& normals, std::uint32_t v,
+                      const glm::vec3& mean) {
+    constexpr int steps = 64;
+    glm::vec3 middle = mean, best = mean;
+    float least_of_best = -2;
+    for (int step = 1; step <= steps && least_of_best <= farthest; ++step) {
+        const float length = glm::length(middle);
+        if (!(length > 1e-3f)) break;
+        const glm::vec3 unit = middle / length;
+        float least = 2;
+        glm::vec3 towards = unit;
+        for (const std::uint32_t corner : neighbours.around(v)) {
+            const glm::vec3& normal = normals[corner / 3];
+            if (normal == glm::vec3(0) || glm::dot(unit, normal) >= least) continue;
+            least = glm::dot(unit, normal), towards = normal;
+        }
+        if (least > least_of_best) least_of_best = least, best = unit;
+        middle += (towards - middle) / float(step + 1);
+    }
+    return best;
+}
+
 struct ShadingNormal {
     glm::vec3 normal{0};
     bool inward = false; ///< against the triangles around
@@ -41,7 +66,8 @@ ShadingNormal shading_normal(const Mesh& mesh, const Neighbours& neighbours,
     const float length = glm::length(sum);
     if (!(length > 1e-6f)) return {own != glm::vec3(0) ? own : glm::vec3(0, 0, 1)};
     const bool inward = glm::dot(sum, own) < 0;
-    return {(inward ? -sum : sum) / length, inward};
+    const glm::vec3 normal = most_normal(neighbours, normals, v, sum / length);
+    return {inward ? -normal : normal, inward};
 }
 
 constexpr std::uint8_t outward = 0, inward = 1, in_part = 2, turned = 3;
