@@ -23,7 +23,9 @@ def run(command, place, display=False):
     """Output of a command, which gets a home of its own and, where it draws, an X server with software GL."""
     home = place / "home"
     home.mkdir(mode=0o700, exist_ok=True)
-    environment = dict(os.environ, HOME=str(home), XDG_RUNTIME_DIR=str(home), LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8")
+    # Blender takes the modules of the first python3 in the path, and needs numpy of Debian's.
+    path = "/usr/bin:" + os.environ["PATH"]
+    environment = dict(os.environ, PATH=path, HOME=str(home), XDG_RUNTIME_DIR=str(home), LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8")
     if display:
         command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24 -noreset", *command]
     try:
