@@ -29,7 +29,7 @@ from pathlib import Path
 FOLDERS = [*Path("/usr/lib").glob("*/piglit"), Path("/usr/lib/piglit")]
 SLOW_CPU, SHIM_CPU, WALL = 3, 10, 300  # seconds
 SPARSE = 1000  # every how many frames, for those that end ten thousand of them
-RETRIES = 24  # four at a time, and a quarter of that alone: polygon-mode-facing falls over in Mesa without us, seldom on a quiet machine, nearly always on a busy one
+RETRIES = 6
 REFUSALS = 5  # of the X server, which say nothing of the program
 REFUSED = re.compile(r"XOpenDisplay|(open|connect to) (X )?(display|server)", re.IGNORECASE)
 LEAST_PROGRAMS, LEAST_CASTING = 150, 100
@@ -138,16 +138,12 @@ def judge(folder, command, display, shim, neutral):
         ours = Run(folder, command, display, 6 * SHIM_CPU, shim, every=SPARSE)
     if plain.result == ours.result:
         return "same", plain, ours
-    def alone_and_beside(**how):
-        with concurrent.futures.ThreadPoolExecutor(4) as pool:
-            busy = list(pool.map(lambda _: Run(folder, command, display, SHIM_CPU, **how).result, range(RETRIES)))
-        return busy + [Run(folder, command, display, SHIM_CPU, **how).result for _ in range(RETRIES // 4)]
-    again = alone_and_beside()
+    again = [Run(folder, command, display, SHIM_CPU).result for _ in range(RETRIES)]
     if ours.result in again:
         return "flaky", plain, ours
     if all(len(result) == 1 for result in [plain.result, *again]):
         return "no result", plain, ours  # it never comes to one without us
-    if neutral and ours.result in alone_and_beside(neutral=neutral):
+    if neutral and ours.result in [Run(folder, command, display, SHIM_CPU, neutral=neutral).result for _ in range(RETRIES)]:
         return "any preload", plain, ours
     return "DIFFERENT", plain, ours
 
