@@ -8,11 +8,11 @@
 namespace glcast::preload {
 namespace {
 
-constexpr double vast = 16, apart = 5, picture = 1.5; ///< times as wide as all else
+constexpr double vast = 16, apart = 5, picture = 1.5;         ///< times as wide as all else
 constexpr double sheet_clearance = 1, round_clearance = 0.25; ///< widths of all else
-constexpr double flat = 1.0 / 50;     ///< of its width: off the plane of a face, and still a sheet or convex
+constexpr double flat = 1.0 / 50; ///< of its width: off the plane of a face, and still a sheet or convex
 constexpr double in_the_middle = 1.0 / 20, touches = 1.0 / 50; ///< of its width
-constexpr double least_share = 1.0 / 3; ///< of the width of everything
+constexpr double least_share = 1.0 / 3;                        ///< of the width of everything
 constexpr std::size_t round_faces = 32, most_points = 256;
 
 glm::dvec3 middle(const Bounds& b) { return (b.lo + b.hi) / 2.0; }
@@ -125,7 +125,8 @@ bool faces_the_eye(Piece& piece, const std::vector<DrawShape>& shapes, const glm
 }
 
 bool is_behind(const Piece& piece, const glm::dvec3& p) {
-    return std::any_of(piece.faces.begin(), piece.faces.end(), [&](const Face& face) { return face.in_front(p) <= 0; });
+    return std::any_of(piece.faces.begin(), piece.faces.end(),
+                       [&](const Face& face) { return face.in_front(p) <= 0; });
 }
 
 bool is_backdrop(const Piece& piece, const std::vector<Piece>& candidates, const Bounds& rest) {
@@ -135,7 +136,8 @@ bool is_backdrop(const Piece& piece, const std::vector<Piece>& candidates, const
         if (&other != &piece && is_behind(piece, middle(other.bounds))) return false; // walls of a maze
     if (times >= vast) return true;
     const double clearance = piece.clearance(rest);
-    if (times >= apart && clearance >= (piece.is_sheet ? sheet_clearance : round_clearance) * rest.width()) return true;
+    if (times >= apart && clearance >= (piece.is_sheet ? sheet_clearance : round_clearance) * rest.width())
+        return true;
     if (piece.is_sheet || !piece.textured || piece.lit || times < picture) return false;
     return piece.eye_off <= in_the_middle * width &&
            (piece.faces.size() >= round_faces || clearance >= touches * width);
@@ -193,7 +195,8 @@ Backdrops find_backdrops(const std::vector<DrawShape>& shapes, const glm::dvec3&
         std::erase_if(pieces, [&](const Piece& p) { return found.is_backdrop[p.draws.front()]; });
         if (pieces.size() == before) break;
     }
-    if (pieces.empty() && beside.value_or(others()).is_empty()) found.is_backdrop.assign(shapes.size(), false);
+    if (pieces.empty() && beside.value_or(others()).is_empty())
+        found.is_backdrop.assign(shapes.size(), false);
     return found;
 }
 

@@ -1,18 +1,22 @@
-// Which draws of a group are a backdrop: a picture of what is far away, drawn round the scene or behind it (sky boxes and
-// domes, cloud planes, a quad with a photograph). Cast as they stand they would take the whole lattice. Knows no GL.
+// Which draws of a group are a backdrop: a picture of what is far away, drawn round the scene or behind it
+// (sky boxes and domes, cloud planes, a quad with a photograph). Cast as they stand they would take the whole
+// lattice. Knows no GL.
 //
-// The rule. Draws that follow one another and share corners are one piece. A piece may be a backdrop when it is a sheet,
-// or bulges away from the eye everywhere, so that neither the eye nor all else is behind any of its faces. Then it is one
+// The rule. Draws that follow one another and share corners are one piece. A piece may be a backdrop when it
+// is a sheet, or bulges away from the eye everywhere, so that neither the eye nor all else is behind any of
+// its faces. Then it is one
 //
 //   vast      when it is at least 16 times as wide as all else together;
-//   apart     when it is at least 5 times as wide and away from all else: a sheet by the width of all else, what stands
+//   apart     when it is at least 5 times as wide and away from all else: a sheet by the width of all else,
+//   what stands
 //             round the eye by a fourth of it;
-//   a picture when it is textured, not lit, stands round the eye with the eye in its middle, is at least 1.5 times as wide
+//   a picture when it is textured, not lit, stands round the eye with the eye in its middle, is at least 1.5
+//   times as wide
 //             as all else, and is round or touches nothing;
 //   pinned    when the depth range puts it at the far plane.
 //
-// So a floor stays under a model up to 16 times as wide, and a room stays with what stands in it, as long as that is a
-// sixteenth as wide as the room. Widths are the longest sides of boxes in the capture frame.
+// So a floor stays under a model up to 16 times as wide, and a room stays with what stands in it, as long as
+// that is a sixteenth as wide as the room. Widths are the longest sides of boxes in the capture frame.
 #pragma once
 #include <functional>
 #include <glm/common.hpp>
@@ -43,8 +47,8 @@ struct Backdrops {
     bool any() const { return std::find(is_backdrop.begin(), is_backdrop.end(), true) != is_backdrop.end(); }
 };
 
-/// `shapes`: draws in the order of the frame. `others`: asked at most once for the bounds of what is drawn beside them.
-/// Never takes all that there is.
+/// `shapes`: draws in the order of the frame. `others`: asked at most once for the bounds of what is drawn
+/// beside them. Never takes all that there is.
 Backdrops find_backdrops(const std::vector<DrawShape>& shapes, const glm::dvec3& eye,
                          const std::function<Bounds()>& others);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 
 #include "shim/preload/backdrop.h"
 #include "shim/preload/feedback_pass.h"
@@ -13,12 +16,14 @@ namespace {
 /// Backdrops are plain: draws are looked at while there are no more triangles in all.
 constexpr long most_triangles = 100'000;
 constexpr int vertex_floats = 3; // GL_3D
+constexpr double much_of_the_window = 0.5;
+constexpr double beyond_the_window = 3; ///< wide; the window is 2 wide, and boxes are cubes seen askew
 
 const char* plural(long count) { return count == 1 ? "" : "s"; }
 
 std::string count_of(long triangles, long draws) {
-    return std::to_string(triangles) + " triangle" + plural(triangles) + " in " + std::to_string(draws) + " draw" +
-           plural(draws);
+    return std::to_string(triangles) + " triangle" + plural(triangles) + " in " + std::to_string(draws) +
+           " draw" + plural(draws);
 }
 
 struct Counts {
@@ -32,9 +37,10 @@ class Search {
     Search(std::span<const ScenePart> of, const GlTable& table, const EngineOptions& options)
         : parts(of), gl(table), engine(options) {}
 
-    LeftOut run() {
+    LeftOut run(double coverage) {
         choose();
-        if (shapes.size() > 0 && shapes.size() + rich > 1) measure();
+        const bool may_be = pinned_ones() || coverage >= much_of_the_window || reaches_beyond_the_window();
+        if (may_be && shapes.size() > 0 && shapes.size() + rich > 1) measure();
         return {around.draws + pinned.draws, text()};
     }
 
@@ -76,6 +82,24 @@ class Search {
         }
     }
 
+    bool pinned_ones() const {
+        return std::any_of(shapes.begin(), shapes.end(), [](const DrawShape& shape) { return shape.pinned; });
+    }
+
+    bool reaches_beyond_the_window() const {
+        const Group& group = parts[0].scene.groups[parts[0].group];
+        if (group.projections.empty()) return false;
+        const glm::dmat4 to_clip = group.projections.front() * glm::inverse(engine.eye_to_capture);
+        glm::dvec2 lo(INFINITY), hi(-INFINITY);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 on(corner & 1, corner >> 1 & 1, corner >> 2);
+            const glm::dvec4 clip = to_clip * glm::dvec4(engine.box->lo + on * engine.box->size, 1);
+            if (!(clip.w > 0)) return true;
+            lo = glm::min(lo, glm::dvec2(clip) / clip.w), hi = glm::max(hi, glm::dvec2(clip) / clip.w);
+        }
+        return std::max(hi.x - lo.x, hi.y - lo.y) > beyond_the_window;
+    }
+
     void measure() {
         for (std::size_t part = 0; part < parts.size(); ++part) read_shapes(part);
         const auto eye = eye_of(parts[0].scene.groups[parts[0].group], engine.eye_to_capture);
@@ -93,8 +117,8 @@ class Search {
         const ScenePart& of = parts[part];
         const Wanted wanted{.marks = true, .only = &masks[part]};
         const std::vector<GLfloat> values = feed_back(
-            gl, [&](const GlTable& table) { replay_group(of.frame, of.scene, of.group, wanted, table); }, engine,
-            GL_3D);
+            gl, [&](const GlTable& table) { replay_group(of.frame, of.scene, of.group, wanted, table); },
+            engine, GL_3D);
         std::vector<std::size_t> shape_of(of.scene.draws.size(), shapes.size());
         for (std::size_t i = 0; i < places.size(); ++i)
             if (places[i].part == part) shape_of[places[i].draw] = i;
@@ -108,7 +132,8 @@ class Search {
             } else if (token == GL_POLYGON_TOKEN) {
                 const auto corners = static_cast<std::size_t>(*v++);
                 std::vector<glm::dvec3> polygon;
-                for (std::size_t i = 0; i < corners; ++i) polygon.push_back(lattice.point(v + i * vertex_floats));
+                for (std::size_t i = 0; i < corners; ++i)
+                    polygon.push_back(lattice.point(v + i * vertex_floats));
                 v += corners * vertex_floats;
                 if (shape < shapes.size()) shapes[shape].polygons.push_back(std::move(polygon));
             } else {
@@ -130,8 +155,8 @@ class Search {
             gl,
             [&](const GlTable& table) {
                 for (std::size_t part = 0; part < parts.size(); ++part)
-                    replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &others[part]},
-                                 table);
+                    replay_group(parts[part].frame, parts[part].scene, parts[part].group,
+                                 {.only = &others[part]}, table);
             },
             options);
         if (box) bounds.add(box->lo), bounds.add(box->lo + box->size);
@@ -163,7 +188,7 @@ class Search {
     const EngineOptions& engine;
     std::vector<Place> places; ///< of the shapes
     std::vector<DrawShape> shapes;
-    std::size_t rich = 0; ///< draws that are not looked at
+    std::size_t rich = 0;                         ///< draws that are not looked at
     std::vector<std::vector<std::uint8_t>> masks; ///< of each part's draws: is it looked at?
     double times = 0;
     Counts around, pinned;
@@ -171,8 +196,9 @@ class Search {
 
 } // namespace
 
-LeftOut leave_out_backdrops(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine) {
-    return Search(parts, gl, engine).run();
+LeftOut leave_out_backdrops(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine,
+                            double coverage) {
+    return Search(parts, gl, engine).run(coverage);
 }
 
 } // namespace glcast::preload

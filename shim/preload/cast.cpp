@@ -347,7 +347,7 @@ class Cast {
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
                 of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
-        const LeftOut left = leave_out_backdrops(of, gl, engine);
+        const LeftOut left = leave_out_backdrops(of, gl, engine, candidate.picture.coverage);
         if (left.draws > 0) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
         if (!left.text.empty()) say_once("%s", left.text.c_str());
     }

@@ -15,7 +15,8 @@ constexpr int pixels = 64; // nothing is rasterised; window coordinates are not 
 
 } // namespace
 
-FeedbackLattice::FeedbackLattice(const Box& box) : to_capture(glm::inverse(lattice_projection(box, Axis::z))) {}
+FeedbackLattice::FeedbackLattice(const Box& box)
+    : to_capture(glm::inverse(lattice_projection(box, Axis::z))) {}
 
 glm::dvec3 FeedbackLattice::point(const GLfloat* v) const {
     const glm::dvec4 clip(2.0 * v[0] / pixels - 1, 2.0 * v[1] / pixels - 1, 2.0 * v[2] - 1, 1);

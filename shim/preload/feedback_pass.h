@@ -1,5 +1,5 @@
-// All that a draw function draws inside a box, asked of GL by feedback: in whatever way it is drawn, and nothing is
-// rasterised.
+// All that a draw function draws inside a box, asked of GL by feedback: in whatever way it is drawn, and
+// nothing is rasterised.
 #pragma once
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -21,6 +21,7 @@ class FeedbackLattice {
 
 /// The values of `draw` inside `options.box`, in the current context; `type`: GL_3D, GL_3D_COLOR, ... Throws
 /// std::runtime_error where they need more than a gigabyte.
-std::vector<GLfloat> feed_back(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options, GLenum type);
+std::vector<GLfloat> feed_back(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options,
+                               GLenum type);
 
 } // namespace glcast::preload

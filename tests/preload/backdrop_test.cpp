@@ -1,4 +1,5 @@
-// What is drawn round the scene or behind it is not cast, and a line names it; floors and rooms are (programs/backdrops.c).
+// What is drawn round the scene or behind it is not cast, and a line names it; floors and rooms are
+// (programs/backdrops.c).
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -51,10 +52,11 @@ TEST_P(Backdrop, is_left_out_and_named) {
     EXPECT_FALSE(kept.says(told)) << kept.outcome.err;
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Backdrop,
-                         testing::Values(Kept{"sky_box", 120}, Kept{"plain_sky_box", 60}, Kept{"near_sky_box", 26},
-                                         Kept{"dome", 120}, Kept{"half_dome", 120}, Kept{"sky_plane", 200},
-                                         Kept{"photograph", 60}, Kept{"vast_floor", 300}, Kept{"last", 120},
-                                         Kept{"masked", 40}, Kept{"untested", 40}, Kept{"pinned", 6}),
+                         testing::Values(Kept{"sky_box", 120}, Kept{"plain_sky_box", 60},
+                                         Kept{"near_sky_box", 26}, Kept{"dome", 120}, Kept{"half_dome", 120},
+                                         Kept{"sky_plane", 200}, Kept{"photograph", 60},
+                                         Kept{"vast_floor", 300}, Kept{"last", 120}, Kept{"masked", 40},
+                                         Kept{"untested", 40}, Kept{"pinned", 6}),
                          [](const auto& info) { return std::string(info.param.way); });
 
 class NoBackdrop : public testing::TestWithParam<Kept> {};
@@ -67,8 +69,8 @@ TEST_P(NoBackdrop, is_cast_without_a_word) {
     EXPECT_FALSE(run.says(told)) << run.outcome.err;
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, NoBackdrop,
-                         testing::Values(Kept{"floor", 30}, Kept{"room", 15}, Kept{"relief", 80}, Kept{"walls", 80},
-                                         Kept{"far_body", 50.67}, Kept{"alone", 120}),
+                         testing::Values(Kept{"floor", 30}, Kept{"room", 15}, Kept{"relief", 80},
+                                         Kept{"walls", 80}, Kept{"far_body", 50.67}, Kept{"alone", 120}),
                          [](const auto& info) { return std::string(info.param.way); });
 
 TEST(Backdrops, over_a_ground_that_is_cast) {
