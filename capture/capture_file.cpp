@@ -77,6 +77,9 @@ void add_capture(Bytes& to, const CaptureInfo& info) {
     exr::add_double(to, "glcast.boxSize", info.box.size);
     add_matrix(to, "glcast.eyeToCapture", info.eye_to_capture);
     if (info.from_capture) add_matrix(to, "glcast.fromCapture", *info.from_capture);
+    if (info.eye) exr::add_v3d(to, "glcast.eye", &info.eye->x);
+    for (std::size_t k = 0; k < info.seen_places.size(); ++k)
+        exr::add_v3d(to, seen_place_name(k).c_str(), &info.seen_places[k].x);
     exr::add_string(to, "glcast.program", info.program);
     exr::add_int(to, "glcast.frame", static_cast<int>(std::min<long>(info.frame, INT32_MAX)));
     exr::add_string(to, "glcast.renderer", info.renderer);
@@ -165,6 +168,8 @@ const char* why_no_box(const Box& box, int n) {
     if (box.size / n < far * doubles) return "the box is too far from the origin for its size";
     return nullptr;
 }
+
+std::string seen_place_name(std::size_t number) { return "glcast.seenPlace." + std::to_string(number); }
 
 std::string part_name(const View& view) {
     return std::string(view.side == Side::minus ? "-" : "+") + "xyz"[static_cast<int>(view.axis)] + "." +

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "capture/view.h"
 #include "capture/view_image.h"
@@ -12,6 +13,7 @@
 namespace glcast {
 
 inline constexpr int capture_format_version = 2;
+inline constexpr int most_seen_places = 32;
 
 /// What is true of the whole capture; in the header of every part.
 struct CaptureInfo {
@@ -20,6 +22,11 @@ struct CaptureInfo {
     glm::dmat4 eye_to_capture{1.0};
     /// Reference views (capture/reference_views.h): the frame of their capture to this one. Else none.
     std::optional<glm::dmat4> from_capture;
+    /// Where the program's own eye is, capture frame. None where all its rays are parallel, or in captures of glcast 0.1.0.
+    std::optional<glm::dvec3> eye;
+    /// Places in free space, capture frame, that the eye sees through faces which the program culls: a dozen of what may be
+    /// rooms without their near walls. At most `most_seen_places`.
+    std::vector<glm::dvec3> seen_places;
     std::string program;  ///< file name of the host program
     long frame = 0;       ///< number of the frame, from 1
     std::string renderer; ///< GL_RENDERER
@@ -36,6 +43,9 @@ struct CaptureInfo {
 /// Why a mesh cannot be made in that box: not finite, or not so large that 4096 places between two samples
 /// are different doubles, and that floats hold squares of it. Null where it can.
 const char* why_no_box(const Box& box, int n);
+
+/// "glcast.seenPlace.7"
+std::string seen_place_name(std::size_t number);
 
 /// "+x.0": side, axis, layer.
 std::string part_name(const View& view);

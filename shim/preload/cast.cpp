@@ -405,6 +405,7 @@ class Cast {
         if (window.unanswered > 0)
             not_understood["questions about windows that the X server did not answer in time"] = window.unanswered;
         CaptureInfo info = make_info(number, options, engine, gl);
+        if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);
         info.not_understood = std::move(not_understood);
         const std::string path = output_name(options.out, getpid(), number);
         CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path, patience);
@@ -432,6 +433,8 @@ class Cast {
             info.box = *engine.box;
             info.eye_to_capture = engine.eye_to_capture;
             info.from_capture = rotation;
+            info.eye.reset();
+            info.seen_places.clear();
             const CastResult result = write_capture(gl, draw, info, engine, reference_name(path, ++count), patience);
             if (result.outcome != CastOutcome::captured) return result;
         }

@@ -62,6 +62,8 @@ Json describe_capture(const Options& options) {
                    {"method", layer_method_name(info.layer_method)},
                    {"count", info.layer_count}}},
                  {"notUnderstood", Json::object()}};
+    if (info.eye) json["eye"] = vector_json(*info.eye);
+    for (const glm::dvec3& place : info.seen_places) json["seenPlaces"].push_back(vector_json(place));
     for (const auto& [what, count] : info.not_understood) json["notUnderstood"][what] = count;
     json["parts"] = parts;
     return json;

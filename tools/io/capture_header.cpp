@@ -123,6 +123,20 @@ glm::dmat4 matrix_of(const Attributes& header, const char* name) {
     return m;
 }
 
+glm::dvec3 place_of(const Attributes& header, const std::string& name) {
+    const std::vector<double> at = exr::doubles_value(header, name, "v3d");
+    for (const double each : at)
+        if (!std::isfinite(each)) damaged(name + " is not finite");
+    return {at[0], at[1], at[2]};
+}
+
+/// Captures of glcast 0.1.0 have none.
+void read_places(const Attributes& header, CaptureInfo& info) {
+    if (header.contains("glcast.eye")) info.eye = place_of(header, "glcast.eye");
+    for (std::size_t k = 0; k < most_seen_places && header.contains(seen_place_name(k)); ++k)
+        info.seen_places.push_back(place_of(header, seen_place_name(k)));
+}
+
 Box box_of(const Attributes& header, int n) {
     const std::vector<double> lo = exr::doubles_value(header, "glcast.boxLo", "v3d");
     const Box box{{lo[0], lo[1], lo[2]}, exr::double_value(header, "glcast.boxSize")};
@@ -136,6 +150,7 @@ CaptureInfo info_of(const Attributes& header) {
     info.box = box_of(header, info.n);
     info.eye_to_capture = matrix_of(header, "glcast.eyeToCapture");
     if (header.contains("glcast.fromCapture")) info.from_capture = matrix_of(header, "glcast.fromCapture");
+    read_places(header, info);
     info.program = exr::string_value(header, "glcast.program");
     info.frame = exr::int_value(header, "glcast.frame");
     info.renderer = exr::string_value(header, "glcast.renderer");

@@ -70,6 +70,8 @@ void Run::make_surface(const std::filesystem::path& capture) {
     full.sample = made.sample = made.info.box.size / made.info.n;
     ReconstructOptions how = options.surface;
     how.complete_layers = made.info.layers == Layers::complete;
+    how.eyes = made.info.seen_places;
+    if (made.info.eye) how.eyes.push_back(*made.info.eye);
     full.mesh = reconstruct(std::move(hits), made.info.box, how, &made.surface, &captured);
     full.error.unsupported_area_share = made.surface.unsupported_area_share;
     if (!how.geometric_normals) full.error.disagreeing_normals_share = made.surface.disagreeing_normals_share;

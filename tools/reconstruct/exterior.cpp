@@ -44,20 +44,58 @@ Volume complement(const Volume& outside) {
     });
 }
 
+Volume together(const Volume& a, const Volume& b) {
+    return make_volume(a.n, [&](int y, int z, Word* bits) {
+        a.set_bits(y, z, bits);
+        b.set_bits(y, z, bits);
+    });
+}
+
+/// Of free space about each eye the nearest sample that `is_wanted`, a few steps away at most, no wall between.
+template <class IsWanted>
+std::vector<SampleId> nearest(const Rays& rays, std::span<const SampleId> eyes, int most, IsWanted is_wanted) {
+    std::vector<SampleId> out;
+    for (const SampleId eye : eyes) {
+        std::pair<int, SampleId> best{most + 1, 0};
+        flood(rays, {eye}, 0, most, [](const auto&, SampleId) { return true; })
+            .for_each([&](SampleId id, int steps) {
+                if (is_wanted(sample_of(id, rays.n))) best = std::min(best, {steps, id});
+            });
+        if (best.first <= most) out.push_back(best.second);
+    }
+    return out;
+}
+
+/// `open` without what is out of sight, but for where one of the eyes stands.
+Volume in_sight(const Rays& rays, const SliceHits& along_z, const Volume& open, std::span<const SampleId> eyes) {
+    auto sight = find_sight(open);
+    if (!sight) return open;
+    Volume seen = without_hidden(rays, along_z, open, *sight);
+    std::vector<SampleId> within;
+    for (const SampleId eye : eyes)
+        if (const auto s = sample_of(eye, rays.n); open.has(s) && !seen.has(s)) within.push_back(eye);
+    if (within.empty()) return seen;
+    const auto is_hidden = [&](const auto& s) { return open.has(s) && sight->at(s) == Sight::hidden; };
+    std::vector<std::array<int, 3>> chambers;
+    for (const SampleId id : nearest(rays, within, 4 * sight->scale, is_hidden))
+        chambers.push_back(sample_of(id, rays.n));
+    sight = find_sight(open, chambers);
+    return sight ? without_hidden(rays, along_z, open, *sight) : open;
+}
+
 } // namespace
 
-Exterior find_exterior(const Rays& rays, double close_gaps) {
+Exterior find_exterior(const Rays& rays, double close_gaps, std::span<const SampleId> eyes) {
     const int radius = int(std::lround(close_gaps));
     const SliceHits along_z(rays);
-    Volume open = wide_space(rays, along_z, radius);
-    open = marked_runs(open, connected_to_border(rays, along_z, open, radius));
+    const Volume wide = wide_space(rays, along_z, radius);
+    const auto at = nearest(rays, eyes, step_of(radius), [&](const auto& s) { return wide.has(s); });
+    const auto connected = connections(rays, along_z, wide, radius, at);
+    const Volume reached = marked_runs(wide, connected, with_border);
     Exterior out;
-    if (const auto sight = find_sight(open)) {
-        const std::size_t before = open.samples();
-        open = without_hidden(rays, along_z, open, *sight);
-        out.hidden_samples = before - open.samples();
-    }
-    Volume outside = open;
+    Volume outside = in_sight(rays, along_z, reached, at);
+    out.hidden_samples = reached.samples() - outside.samples();
+    if (!at.empty()) outside = together(outside, marked_runs(wide, connected, with_eye));
     if (radius) {
         for (int k = 0; k < radius + 1; ++k) outside = grown(rays, along_z, outside);
         outside.add(shallow_places(rays, along_z, outside, radius));

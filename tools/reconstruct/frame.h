@@ -22,6 +22,8 @@ class CaptureFrame {
     glm::dvec3 operator()(const glm::dvec3& samples) const {
         return glm::round((lo + (samples + 0.5) * sample) / step) * step;
     }
+    /// The other way, not rounded.
+    glm::dvec3 samples(const glm::dvec3& place) const { return (place - lo) / sample - 0.5; }
     /// How far a coordinate may move, samples.
     double rounding() const { return 0.5 * step / sample; }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -38,10 +39,23 @@ void to_capture_frame(Mesh& mesh, const CaptureFrame& frame) {
     for (glm::dvec3& p : mesh.positions) p = frame(p);
 }
 
+/// The samples nearest to places in the box.
+std::vector<SampleId> samples_of(const std::vector<glm::dvec3>& places, const CaptureFrame& frame, const Rays& rays) {
+    std::vector<SampleId> samples;
+    for (const glm::dvec3& place : places) {
+        const glm::dvec3 at = glm::round(frame.samples(place));
+        const bool is_near = glm::all(glm::lessThan(glm::abs(at), glm::dvec3(2.0 * rays.n)));
+        if (!is_near) continue;
+        const std::array<int, 3> sample{int(at.x), int(at.y), int(at.z)};
+        if (rays.inside(sample)) samples.push_back(id_of(sample, rays.n));
+    }
+    return samples;
+}
+
 /// Fills the rays' volume by the rule that can be followed.
-void carve(Rays& rays, const ReconstructOptions& options, ReconstructReport& made) {
+void carve(Rays& rays, const CaptureFrame& frame, const ReconstructOptions& options, ReconstructReport& made) {
     if (options.exterior == ExteriorRule::layers && options.complete_layers) {
-        Exterior found = find_exterior(rays, options.close_gaps);
+        Exterior found = find_exterior(rays, options.close_gaps, samples_of(options.eyes, frame, rays));
         made.exterior = ExteriorRule::layers;
         made.thin_samples = found.thin_samples;
         made.hidden_samples = found.hidden_samples;
@@ -70,7 +84,8 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     rays.n = hits.resolution();
     rays.axis = hits.finish();
     rays.half_thickness = float(options.sheet_thickness / 2);
-    carve(rays, options, made);
+    const CaptureFrame frame(box, rays.n);
+    carve(rays, frame, options, made);
     CellGrid grid = find_cells(rays);
     made.carve_seconds = watch.lap();
 
@@ -80,7 +95,6 @@ Mesh reconstruct(HitBuilder&& hits, const Box& box, const ReconstructOptions& op
     auto crossings = std::make_unique<const EdgeCrossings>(rays, grid);
     mesh.positions = cubes ? cube_vertices(grid) : contour_vertices(*crossings, grid);
     QuadReport quads;
-    const CaptureFrame frame(box, rays.n);
     mesh.triangles = make_triangles(*crossings, grid, mesh.positions, frame.rounding(), quads);
     crossings.reset();
     if (!cubes) made.mended = mend_intersections(rays, grid, quads, mesh.triangles, frame, mesh.positions);

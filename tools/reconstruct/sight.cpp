@@ -215,7 +215,8 @@ struct Faces {
 };
 
 /// The dim cells connected with `seed`; they stay hidden when their openings are small.
-bool judge_chamber(Sight& sight, std::uint32_t seed, std::vector<std::uint8_t>& judged) {
+bool judge_chamber(Sight& sight, std::uint32_t seed, std::span<const std::uint32_t> seen,
+                   std::vector<std::uint8_t>& judged) {
     std::vector<std::uint32_t> chamber{seed};
     judged[seed] = 1;
     double openings = 0, walls = 0;
@@ -231,7 +232,9 @@ bool judge_chamber(Sight& sight, std::uint32_t seed, std::vector<std::uint8_t>& 
         openings += faces.opening();
         walls += faces.walls;
     }
-    if (chamber.size() >= least && openings < opening * walls) return true;
+    const bool is_seen = std::any_of(chamber.begin(), chamber.end(),
+                                     [&](std::uint32_t cell) { return std::ranges::count(seen, cell) > 0; });
+    if (!is_seen && chamber.size() >= least && openings < opening * walls) return true;
     // Not before all chambers are judged: an open one must not count as opening of the next.
     for (std::uint32_t cell : chamber) judged[cell] = 2;
     return false;
@@ -239,7 +242,7 @@ bool judge_chamber(Sight& sight, std::uint32_t seed, std::vector<std::uint8_t>& 
 
 } // namespace
 
-std::optional<Sight> find_sight(const Volume& free) {
+std::optional<Sight> find_sight(const Volume& free, std::span<const std::array<int, 3>> seen) {
     Sight sight;
     sight.scale = (free.n + most_cells - 1) / most_cells;
     sight.cells = (free.n + sight.scale - 1) / sight.scale;
@@ -259,10 +262,12 @@ std::optional<Sight> find_sight(const Volume& free) {
                 if (test_bit(cells.row(y, z), x)) sight.state[(std::size_t(z) * m + y) * m + x] = Sight::open;
     });
     for (std::uint32_t cell : dim) sight.state[cell] = Sight::hidden;
+    std::vector<std::uint32_t> seen_cells;
+    for (const auto& s : seen) seen_cells.push_back(std::uint32_t(sight.cell_of(s)));
     std::vector<std::uint8_t> judged(sight.state.size(), 0);
     bool any = false;
     for (std::uint32_t cell : dim)
-        if (!judged[cell]) any |= judge_chamber(sight, cell, judged);
+        if (!judged[cell]) any |= judge_chamber(sight, cell, seen_cells, judged);
     if (!any) return std::nullopt;
     for (std::uint32_t cell : dim)
         if (judged[cell] == 2) sight.state[cell] = Sight::open;

@@ -6,6 +6,7 @@
 // closes as a whole, so no single beam through a slit carves a crevice, and blind ends of bores stay open.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "tools/reconstruct/volume.h"
 
@@ -22,13 +23,14 @@ struct Sight {
     std::vector<Cell> state;
 
     /// Of the cell that holds the sample.
-    Cell at(const std::array<int, 3>& s) const {
-        return state[(std::size_t(s[2] / scale) * cells + s[1] / scale) * cells + s[0] / scale];
+    Cell at(const std::array<int, 3>& s) const { return state[cell_of(s)]; }
+    std::size_t cell_of(const std::array<int, 3>& s) const {
+        return (std::size_t(s[2] / scale) * cells + s[1] / scale) * cells + s[0] / scale;
     }
 };
 
 /// `free`: samples that are free and connected with the border of the box, off every wall. Nothing when all
-/// of it is open.
-std::optional<Sight> find_sight(const Volume& free);
+/// of it is open. Chambers that hold one of the samples `seen` are open.
+std::optional<Sight> find_sight(const Volume& free, std::span<const std::array<int, 3>> seen = {});
 
 } // namespace glcast

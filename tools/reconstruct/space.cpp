@@ -144,6 +144,12 @@ Word reached(const Window& in, const Walls& walls, int y, std::size_t w) {
     return out;
 }
 
+std::optional<std::uint32_t> run_of(const Volume& space, const std::array<int, 3>& s) {
+    for (std::uint32_t i = space.start[space.row(s[1], s[2])]; i < space.start[space.row(s[1], s[2]) + 1]; ++i)
+        if (space.runs[i].first <= s[0] && s[0] <= space.runs[i].last) return i;
+    return std::nullopt;
+}
+
 /// Calls visit(y, z, row of the set, samples one step from it) for every row, slabs of them on all cores.
 template <class Visit>
 void for_reached_rows(const Rays& rays, const SliceHits& along_z, const Volume& space, Visit visit) {
@@ -193,8 +199,8 @@ Volume wide_space(const Rays& rays, const SliceHits& along_z, int radius) {
     return Volume(n, slices);
 }
 
-std::vector<std::uint8_t> connected_to_border(const Rays& rays, const SliceHits& along_z, const Volume& space,
-                                              int radius) {
+std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z, const Volume& space, int radius,
+                                      std::span<const SampleId> eyes) {
     const int n = rays.n;
     Sets sets(space.runs.size());
     const auto join_slice = [&](int z, const Walls* walls, bool within) {
@@ -226,20 +232,23 @@ std::vector<std::uint8_t> connected_to_border(const Rays& rays, const SliceHits&
         for (int y = 0; y < n; ++y)
             for (std::uint32_t i = space.start[space.row(y, z)]; i < space.start[space.row(y, z) + 1]; ++i) {
                 const bool edge = !y || !z || y == n - 1 || z == n - 1;
-                if (edge || !space.runs[i].first || space.runs[i].last == n - 1) of_root[sets.find(i)] = 1;
+                if (edge || !space.runs[i].first || space.runs[i].last == n - 1) of_root[sets.find(i)] = with_border;
             }
+    for (const SampleId eye : eyes)
+        if (const auto i = run_of(space, sample_of(eye, n)); i && !of_root[sets.find(*i)])
+            of_root[sets.find(*i)] = with_eye;
     for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = of_root[sets.find(std::uint32_t(i))];
     return marks;
 }
 
-Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks) {
+Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks, std::uint8_t mark) {
     Volume out;
     out.n = space.n;
     out.start.reserve(space.start.size());
     out.start.push_back(0);
     for (std::size_t row = 0; row + 1 < space.start.size(); ++row) {
         for (std::uint32_t i = space.start[row]; i < space.start[row + 1]; ++i) {
-            if (!marks[i]) continue;
+            if (marks[i] != mark) continue;
             const bool joins =
                 out.runs.size() > out.start.back() && out.runs.back().last + 1 == space.runs[i].first;
             if (joins)
