@@ -29,12 +29,12 @@ struct ReconstructOptions {
     ExteriorRule exterior = ExteriorRule::layers;
     bool complete_layers =
         false;             ///< the images hold every surface; else the rule is `axes` whatever was asked
-    /// Places in free space, capture frame, from which the inside of something is seen: the program's own eye, and what it
-    /// sees through culled faces. Those outside of the box, or in space that counts as outside anyway, change nothing.
-    std::vector<glm::dvec3> eyes;
     double close_gaps = 1; ///< radius in samples: passages up to 2 r + 1 wide are closed; 0 keeps every gap
     double sheet_thickness = 0.1;   ///< samples, 0.01..1: between the sides of a surface without thickness
     bool geometric_normals = false; ///< recompute normals from the surface instead of those drawn
+    /// Places in free space, capture frame, from which the inside of something is seen: the program's own eye, and what it
+    /// sees through culled faces. Those outside of the box, or in space that counts as outside anyway, change nothing.
+    std::vector<glm::dvec3> eyes = {};
 };
 
 struct ReconstructReport {
