@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_set>
+#include <optional>
 
 namespace glcast::preload {
 namespace {
@@ -14,31 +14,6 @@ constexpr double flat = 1.0 / 50; ///< of its width: off the plane of a face, an
 constexpr double in_the_middle = 1.0 / 20, touches = 1.0 / 50; ///< of its width
 constexpr double least_share = 1.0 / 3;                        ///< of the width of everything
 constexpr std::size_t round_faces = 32, most_points = 256;
-
-glm::dvec3 middle(const Bounds& b) { return (b.lo + b.hi) / 2.0; }
-
-/// Corners of draws, found again where they lie within a grain of one another.
-class Corners {
-  public:
-    explicit Corners(double grain) : grain(grain) {}
-    void add(const glm::dvec3& p) { cells.insert(key(cell(p))); }
-    bool has(const glm::dvec3& p) const {
-        const glm::dvec3 at = cell(p);
-        for (int i = 0; i < 27; ++i)
-            if (cells.contains(key(at + glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)))) return true;
-        return false;
-    }
-    void clear() { cells.clear(); }
-
-  private:
-    glm::dvec3 cell(const glm::dvec3& p) const { return glm::floor(p / grain); }
-    static std::size_t key(const glm::dvec3& c) {
-        return std::hash<double>()(c.x) * 73856093u ^ std::hash<double>()(c.y) * 19349663u ^
-               std::hash<double>()(c.z) * 83492791u;
-    }
-    const double grain;
-    std::unordered_set<std::size_t> cells;
-};
 
 /// A plane that the eye is in front of.
 struct Face {
@@ -78,28 +53,21 @@ std::optional<Face> face_of(const std::vector<glm::dvec3>& polygon, const glm::d
     return glm::dot(normal, eye) > offset ? Face{normal, offset} : Face{-normal, -offset};
 }
 
-std::vector<Piece> pieces_of(const std::vector<DrawShape>& shapes, double grain) {
+std::vector<Piece> pieces_of(const std::vector<DrawShape>& shapes) {
     std::vector<Piece> pieces;
-    Corners corners(grain);
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (shapes[i].polygons.empty() || shapes[i].pinned) continue;
-        long shared = 0;
-        for (const auto& polygon : shapes[i].polygons)
-            for (const glm::dvec3& p : polygon) shared += !pieces.empty() && shared < 2 && corners.has(p);
-        if (shared < 2) {
-            pieces.emplace_back();
-            corners.clear();
+    const auto draws = connected_draws(
+        shapes, [](const DrawShape& shape) { return !shape.pinned; },
+        [](const DrawShape&, const DrawShape&) { return true; });
+    for (const auto& of_piece : draws) {
+        Piece& piece = pieces.emplace_back();
+        piece.draws = of_piece;
+        for (const std::size_t i : of_piece) {
+            piece.textured &= shapes[i].textured;
+            piece.lit |= shapes[i].lit;
+            piece.bounds.add(bounds_of(shapes[i]));
+            for (const ShapePolygon& polygon : shapes[i].polygons)
+                piece.points.insert(piece.points.end(), polygon.begin(), polygon.end());
         }
-        Piece& piece = pieces.back();
-        piece.draws.push_back(i);
-        piece.textured &= shapes[i].textured;
-        piece.lit |= shapes[i].lit;
-        for (const auto& polygon : shapes[i].polygons)
-            for (const glm::dvec3& p : polygon) {
-                corners.add(p);
-                piece.bounds.add(p);
-                piece.points.push_back(p);
-            }
     }
     return pieces;
 }
@@ -119,7 +87,7 @@ bool faces_the_eye(Piece& piece, const std::vector<DrawShape>& shapes, const glm
             if (front < -slack) return false;
             piece.is_sheet &= front <= slack;
         }
-    const glm::dvec3 off = glm::abs(eye - middle(piece.bounds));
+    const glm::dvec3 off = glm::abs(eye - piece.bounds.middle());
     piece.eye_off = off.x + off.y + off.z - std::max({off.x, off.y, off.z});
     return true;
 }
@@ -131,9 +99,9 @@ bool is_behind(const Piece& piece, const glm::dvec3& p) {
 
 bool is_backdrop(const Piece& piece, const std::vector<Piece>& candidates, const Bounds& rest) {
     const double width = piece.bounds.width(), times = width / rest.width();
-    if (is_behind(piece, middle(rest))) return false;
+    if (is_behind(piece, rest.middle())) return false;
     for (const Piece& other : candidates)
-        if (&other != &piece && is_behind(piece, middle(other.bounds))) return false; // walls of a maze
+        if (&other != &piece && is_behind(piece, other.bounds.middle())) return false; // walls of a maze
     if (times >= vast) return true;
     const double clearance = piece.clearance(rest);
     if (times >= apart && clearance >= (piece.is_sheet ? sheet_clearance : round_clearance) * rest.width())
@@ -168,12 +136,7 @@ Backdrops find_backdrops(const std::vector<DrawShape>& shapes, const glm::dvec3&
                          const std::function<Bounds()>& others) {
     Backdrops found;
     for (const DrawShape& shape : shapes) found.is_backdrop.push_back(shape.pinned);
-    Bounds all;
-    for (const DrawShape& shape : shapes)
-        for (const auto& polygon : shape.polygons)
-            for (const glm::dvec3& p : polygon) all.add(p);
-    constexpr double grain = 1.0 / 512;
-    std::vector<Piece> pieces = pieces_of(shapes, grain * all.width());
+    std::vector<Piece> pieces = pieces_of(shapes);
     std::optional<Bounds> beside;
     // What is large beside the widest backdrop may be one once that has gone.
     while (!pieces.empty()) {

@@ -19,27 +19,10 @@
 // that is a sixteenth as wide as the room. Widths are the longest sides of boxes in the capture frame.
 #pragma once
 #include <functional>
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
-#include <limits>
-#include <optional>
-#include <vector>
+
+#include "shim/preload/draw_shape.h"
 
 namespace glcast::preload {
-
-struct Bounds {
-    glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
-    void add(const glm::dvec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-    void add(const Bounds& other) { lo = glm::min(lo, other.lo), hi = glm::max(hi, other.hi); }
-    bool is_empty() const { return !(lo.x <= hi.x); }
-    double width() const { return is_empty() ? 0 : std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
-};
-
-/// One draw. Capture frame.
-struct DrawShape {
-    std::vector<std::vector<glm::dvec3>> polygons;
-    bool textured = false, lit = false, pinned = false;
-};
 
 struct Backdrops {
     std::vector<bool> is_backdrop; ///< by draw

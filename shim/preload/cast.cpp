@@ -14,12 +14,13 @@
 #include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
-#include "shim/preload/backdrop_search.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
+#include "shim/preload/left_out.h"
 #include "shim/preload/mask.h"
 #include "shim/preload/patience.h"
 #include "shim/preload/real.h"
+#include "shim/preload/seen_through.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
 #include "shim/preload/strokes.h"
@@ -329,7 +330,8 @@ class Cast {
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
-        if (engine.box && !options.box) leave_out(candidate, as_drawn, engine);
+        std::vector<glm::dvec3> seen_places;
+        if (engine.box) seen_places = look_through(candidate, as_drawn, engine);
         if (!engine.box && !patience.over().empty()) return failure(patience.over());
         if (!engine.box) {
             CastResult nothing = nothing_solid();
@@ -337,19 +339,27 @@ class Cast {
             return nothing;
         }
         tell("casting", std::to_string(number));
-        return write(candidate, engine);
+        return write(candidate, engine, seen_places);
     }
 
-    /// Backdrops, and the box is found anew. A box that is asked for holds what is wanted.
-    void leave_out(const Candidate& candidate, const DrawFunction& as_drawn, EngineOptions& engine) {
-        if (options.keep_backdrops) return;
+    /// Leaves backdrops and outlines out, and finds the box anew. Places that are seen through culled faces.
+    std::vector<glm::dvec3> look_through(const Candidate& candidate, const DrawFunction& as_drawn,
+                                         EngineOptions& engine) {
         std::vector<ScenePart> of;
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
                 of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
-        const LeftOut left = leave_out_backdrops(of, gl, engine, candidate.picture.coverage);
-        if (left.draws > 0) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
-        if (!left.text.empty()) say_once("%s", left.text.c_str());
+        const auto see = [&] { return see_through(gl, drawing(candidate, {}), candidate.group, engine); };
+        SeenThrough seen;
+        if (of.size() == 1 && may_see_through(of[0].scene, of[0].group)) seen = see();
+        if (options.keep_backdrops) return seen.places;
+        // A box that is asked for holds what is wanted.
+        const bool looks = !options.box && may_have_backdrops(of, engine, candidate.picture.coverage);
+        const LeftOut left = leave_out(of, gl, engine, {.backdrops = looks, .outlines = seen.any});
+        if (!left.lines.empty()) say_once("%s", left.lines.c_str());
+        if (left.draws == 0) return seen.places;
+        if (!options.box) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
+        return seen.any && engine.box ? see().places : seen.places;
     }
 
     /// It is all see-through, or what is solid of it is nothing.
@@ -376,7 +386,8 @@ class Cast {
         };
     }
 
-    CastResult write(const Candidate& candidate, const EngineOptions& engine) const {
+    CastResult write(const Candidate& candidate, const EngineOptions& engine,
+                     const std::vector<glm::dvec3>& seen_places) const {
         std::map<std::string, long> not_understood;
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
@@ -405,6 +416,7 @@ class Cast {
         if (window.unanswered > 0)
             not_understood["questions about windows that the X server did not answer in time"] = window.unanswered;
         CaptureInfo info = make_info(number, options, engine, gl);
+        info.seen_places = seen_places;
         if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);
         info.not_understood = std::move(not_understood);
         const std::string path = output_name(options.out, getpid(), number);

@@ -63,7 +63,8 @@ class GroupFilter final : public DrawGate {
 bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
     if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors]) return false;
-    if (draw.backdrop) return backdrops;
+    if (draw.shown == Draw::Shown::none) return false;
+    if (draw.left_out) return backdrops;
     if (!of.writes_depth || draw.writes_depth) return true;
     return draw.before_depth ? backdrops : draw.tests_depth;
 }

@@ -73,6 +73,8 @@ struct Group {
 struct Draw {
     int group = 0; ///< index into Scene::groups
     enum class Kind { filled, outlined, line, point } kind = Kind::filled;
+    /// The sides of its faces that culling leaves: all, those that are counter-clockwise or clockwise in the window.
+    enum class Shown : std::uint8_t { both, counter_clockwise, clockwise, none } shown = Shown::both;
     bool tests_depth = false, writes_depth = false;
     bool before_depth = false; ///< nothing of the group had written depth yet
     bool stencilled = false;   ///< kept to some places by a stencil test
@@ -80,7 +82,7 @@ struct Draw {
     bool mirrors = false;      ///< its modelview turns right hands into left ones
     bool textured = false, lit = false;
     bool pinned = false;       ///< the depth range leaves it the far plane alone
-    bool backdrop = false;     ///< as backdrop_search.h has found
+    bool left_out = false;     ///< a backdrop or an outline (left_out.h)
     long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
@@ -112,7 +114,7 @@ struct Wanted {
     bool solid = true;
     bool lines = false, points = false;
     bool everything = false; ///< as the program draws it
-    bool backdrops = false;  ///< too: skies, backgrounds
+    bool backdrops = false;  ///< too: skies, backgrounds, outlines
     bool marks = false;      ///< glPassThrough of -1 - (index into Scene::draws) before each draw
     const std::vector<std::uint8_t>* only = nullptr; ///< by index into Scene::draws: those that are not 0
     Transparent transparent = Transparent::by_alpha;

@@ -121,6 +121,7 @@ class Analysis final : public DrawGate {
         Group& group = scene.groups[index];
         Draw draw;
         draw.group = index;
+        draw.shown = has_faces(mode) ? shown() : Draw::Shown::both;
         draw.kind = kind_of(mode);
         draw.tests_depth = tests && function != GL_ALWAYS;
         GLboolean mask = GL_TRUE;
@@ -223,12 +224,23 @@ class Analysis final : public DrawGate {
         return range[0] == range[1] && range[0] == (group.depth_reversed ? 0 : 1);
     }
 
+    Draw::Shown shown() const {
+        if (!inner.IsEnabled(GL_CULL_FACE)) return Draw::Shown::both;
+        const GLint culled = get_int(inner, GL_CULL_FACE_MODE);
+        if (culled == GL_FRONT_AND_BACK) return Draw::Shown::none;
+        const bool front_is_ccw = get_int(inner, GL_FRONT_FACE) == GL_CCW;
+        return (culled == GL_BACK) == front_is_ccw ? Draw::Shown::counter_clockwise : Draw::Shown::clockwise;
+    }
+
     Draw::Kind kind_of(GLenum mode) const {
         if (mode == GL_POINTS) return Draw::Kind::point;
         if (!has_faces(mode)) return Draw::Kind::line;
         GLint modes[2] = {GL_FILL, GL_FILL};
         inner.GetIntegerv(GL_POLYGON_MODE, modes);
-        return modes[0] == GL_FILL || modes[1] == GL_FILL ? Draw::Kind::filled : Draw::Kind::outlined;
+        const bool culls = inner.IsEnabled(GL_CULL_FACE);
+        const GLint culled = culls ? get_int(inner, GL_CULL_FACE_MODE) : 0;
+        const bool fills = (modes[0] == GL_FILL && culled != GL_FRONT) || (modes[1] == GL_FILL && culled != GL_BACK);
+        return fills ? Draw::Kind::filled : Draw::Kind::outlined;
     }
 
     int find_group(const Sight& sight, const std::array<GLint, 4>& viewport, bool tests_depth,

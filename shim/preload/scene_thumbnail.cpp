@@ -8,9 +8,10 @@ namespace glcast::preload {
 namespace {
 
 constinit thread_local const GlTable* real = nullptr;
+constinit thread_local bool culls = true; ///< the program may
 
 bool is_ours(GLenum cap) {
-    return cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST || cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
+    return (cap == GL_CULL_FACE && !culls) || cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST || cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
 }
 void APIENTRY enable(GLenum cap) {
     if (!is_ours(cap)) real->Enable(cap);
@@ -34,8 +35,9 @@ template <auto... Members> void ignore(GlTable& table) {
 using G = GlTable;
 
 /// The program's drawing, but where to and what it wipes away.
-GlTable thumbnail_table(const GlTable& gl) {
+GlTable thumbnail_table(const GlTable& gl, bool program_culls = true) {
     real = &gl;
+    culls = program_culls;
     GlTable table = gl;
     ignore<&G::Viewport, &G::Scissor, &G::StencilFunc, &G::StencilOp, &G::StencilMask, &G::StencilFuncSeparate,
            &G::StencilOpSeparate, &G::StencilMaskSeparate, &G::Clear, &G::ClearColor, &G::ClearDepth,
@@ -90,6 +92,16 @@ void read(const GlTable& gl, const Target& target, Thumbnail& thumbnail) {
     thumbnail.flat = covered > 0 && furthest - nearest < 1e-6f;
 }
 
+/// Of the longer side `size`.
+struct Frame {
+    int width, height;
+    Frame(const std::array<GLint, 4>& viewport, int size) {
+        const int longer = std::max({viewport[2], viewport[3], 1});
+        width = std::clamp(size * viewport[2] / longer, 1, size);
+        height = std::clamp(size * viewport[3] / longer, 1, size);
+    }
+};
+
 } // namespace
 
 Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
@@ -97,9 +109,9 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
     Thumbnail thumbnail;
     const GlTable calls = with_framebuffer_calls(gl);
     if (!has_framebuffer_calls(calls)) return thumbnail;
-    const int longer = std::max({viewport[2], viewport[3], 1});
-    thumbnail.width = std::clamp(size * viewport[2] / longer, 1, size);
-    thumbnail.height = std::clamp(size * viewport[3] / longer, 1, size);
+    const Frame frame(viewport, size);
+    thumbnail.width = frame.width;
+    thumbnail.height = frame.height;
     const Target target(calls, size, false);
     if (!target.complete()) return thumbnail;
     prepare(calls, target, thumbnail.width, thumbnail.height, depth_reversed);
@@ -109,6 +121,26 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
     read(calls, target, thumbnail);
     swallow_errors(gl);
     return thumbnail;
+}
+
+DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
+                         bool program_culls, int size) {
+    DepthPicture picture;
+    const GlTable calls = with_framebuffer_calls(gl);
+    const Target target(calls, size, false);
+    if (!target.complete()) return picture;
+    const Frame frame(viewport, size);
+    picture.width = frame.width;
+    picture.height = frame.height;
+    picture.stride = size;
+    prepare(calls, target, frame.width, frame.height, false);
+    gl.Disable(GL_CULL_FACE);
+    draw(thumbnail_table(calls, program_culls));
+    gl.Finish();
+    target.bind();
+    target.read_depth(picture.depth);
+    swallow_errors(gl);
+    return picture;
 }
 
 } // namespace glcast::preload

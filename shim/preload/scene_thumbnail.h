@@ -22,4 +22,15 @@ struct Thumbnail {
 Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
                          bool depth_reversed, int size);
 
+/// Window depths, bottom row first; 1 where nothing is drawn.
+struct DepthPicture {
+    int width = 0, height = 0, stride = 0;
+    std::vector<float> depth;
+    float at(int x, int y) const { return depth[std::size_t(y) * stride + x]; }
+};
+
+/// As draw_thumbnail. `culls`: as the program culls; else all faces are drawn.
+DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport, bool culls,
+                         int size);
+
 } // namespace glcast::preload
