@@ -8,7 +8,7 @@
 namespace glcast::preload {
 namespace {
 
-constexpr double vast = 16, apart = 5, picture = 1.5;         ///< times as wide as all else
+constexpr double vast = 16, apart = 8, picture = 1.5;         ///< times as wide as all else
 constexpr double sheet_clearance = 1, round_clearance = 0.25; ///< widths of all else
 constexpr double flat = 1.0 / 50; ///< of its width: off the plane of a face, and still a sheet or convex
 constexpr double in_the_middle = 1.0 / 20, touches = 1.0 / 50; ///< of its width

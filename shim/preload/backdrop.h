@@ -7,7 +7,7 @@
 // its faces. Then it is one
 //
 //   vast      when it is at least 16 times as wide as all else together;
-//   apart     when it is at least 5 times as wide and away from all else: a sheet by the width of all else,
+//   apart     when it is at least 8 times as wide and away from all else: a sheet by the width of all else,
 //   what stands
 //             round the eye by a fourth of it;
 //   a picture when it is textured, not lit, stands round the eye with the eye in its middle, is at least 1.5

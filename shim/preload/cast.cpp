@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <glm/matrix.hpp>
@@ -353,9 +354,12 @@ class Cast {
         SeenThrough seen;
         if (of.size() == 1 && may_see_through(of[0].scene, of[0].group)) seen = see();
         if (options.keep_backdrops) return seen.places;
+        const bool both_turns = std::any_of(of.begin(), of.end(), [](const ScenePart& part) {
+            return shows_both_turns(part.scene, part.group);
+        });
         // A box that is asked for holds what is wanted.
         const bool looks = !options.box && may_have_backdrops(of, engine, candidate.picture.coverage);
-        const LeftOut left = leave_out(of, gl, engine, {.backdrops = looks, .outlines = seen.any});
+        const LeftOut left = leave_out(of, gl, engine, {.backdrops = looks, .outlines = seen.any || both_turns});
         if (!left.lines.empty()) say_once("%s", left.lines.c_str());
         if (left.draws == 0) return seen.places;
         if (!options.box) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);

@@ -49,9 +49,9 @@ Bounds bounds_of(const DrawShape& shape) {
     return bounds;
 }
 
-std::vector<std::vector<std::size_t>> connected_draws(
-    const std::vector<DrawShape>& shapes, const std::function<bool(const DrawShape&)>& wanted,
-    const std::function<bool(const DrawShape&, const DrawShape&)>& may_join) {
+std::vector<std::vector<std::size_t>>
+connected_draws(const std::vector<DrawShape>& shapes, const std::function<bool(const DrawShape&)>& wanted,
+                const std::function<bool(const DrawShape&, const DrawShape&)>& may_join) {
     Bounds all;
     for (const DrawShape& shape : shapes) all.add(bounds_of(shape));
     std::vector<std::vector<std::size_t>> pieces;

@@ -31,10 +31,10 @@ struct DrawShape {
 
 Bounds bounds_of(const DrawShape& shape);
 
-/// Draws that follow one another and share two corners, to 1/512 of the width of all; `may_join(a, b)`: two draws in
-/// one piece. Those without polygons, and those that are not `wanted`, are in none.
-std::vector<std::vector<std::size_t>> connected_draws(const std::vector<DrawShape>& shapes,
-                                                      const std::function<bool(const DrawShape&)>& wanted,
-                                                      const std::function<bool(const DrawShape&, const DrawShape&)>& may_join);
+/// Draws that follow one another and share two corners, to 1/512 of the width of all; `may_join(a, b)`: two
+/// draws in one piece. Those without polygons, and those that are not `wanted`, are in none.
+std::vector<std::vector<std::size_t>>
+connected_draws(const std::vector<DrawShape>& shapes, const std::function<bool(const DrawShape&)>& wanted,
+                const std::function<bool(const DrawShape&, const DrawShape&)>& may_join);
 
 } // namespace glcast::preload

@@ -44,7 +44,8 @@ bool reaches_beyond_the_window(const Group& group, const EngineOptions& engine) 
     return std::max(hi.x - lo.x, hi.y - lo.y) > beyond_the_window;
 }
 
-/// Is a polygon that is counter-clockwise in the window seen from the side to which its normal points, by the right hand?
+/// Is a polygon that is counter-clockwise in the window seen from the side to which its normal points, by the
+/// right hand?
 bool keeps_hands(const Group& group, const EngineOptions& engine) {
     const bool turned = glm::determinant(glm::dmat3(engine.eye_to_capture)) < 0;
     return group.is_mirrored() == turned;
@@ -68,7 +69,8 @@ class Finder {
 
     LeftOut run() {
         const std::size_t plain = scene.shapes.size();
-        if ((may_have.backdrops || may_have.outlines) && plain > 0 && (plain > 1 || scene.has_others())) find();
+        if ((may_have.backdrops || may_have.outlines) && plain > 0 && (plain > 1 || scene.has_others()))
+            find();
         return {around.draws + pinned.draws + outlines.draws, lines()};
     }
 
@@ -77,7 +79,8 @@ class Finder {
         scene.read();
         const auto eye = eye_of(group_of(parts[0]), engine.eye_to_capture);
         if (!eye) return;
-        if (may_have.outlines) mark(find_outlines(scene.shapes, *eye, keeps_hands(group_of(parts[0]), engine)), outlines);
+        if (may_have.outlines)
+            mark(find_outlines(scene.shapes, *eye, keeps_hands(group_of(parts[0]), engine)), outlines);
         if (!may_have.backdrops) return;
         for (std::size_t i = 0; i < scene.shapes.size(); ++i)
             if (scene.draw(i).left_out) scene.shapes[i] = {};
@@ -97,7 +100,8 @@ class Finder {
     std::string lines() const {
         std::string backdrops;
         const auto tell = [&](const Counts& counts, const std::string& why) {
-            if (counts.draws > 0) backdrops += (backdrops.empty() ? "" : ", ") + counts.text() + " (" + why + ")";
+            if (counts.draws > 0)
+                backdrops += (backdrops.empty() ? "" : ", ") + counts.text() + " (" + why + ")";
         };
         char factor[64];
         std::snprintf(factor, sizeof factor, "%.3g times as wide as all else", times);
@@ -131,7 +135,8 @@ bool may_have_backdrops(std::span<const ScenePart> parts, const EngineOptions& e
            std::any_of(parts.begin(), parts.end(), has_pinned);
 }
 
-LeftOut leave_out(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine, MayHave may_have) {
+LeftOut leave_out(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine,
+                  MayHave may_have) {
     return Finder(parts, gl, engine, may_have).run();
 }
 

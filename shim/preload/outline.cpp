@@ -113,7 +113,8 @@ bool is_outline(const Piece& piece, const std::vector<DrawShape>& shapes, const 
 
 } // namespace
 
-std::vector<bool> find_outlines(const std::vector<DrawShape>& shapes, const glm::dvec3& eye, bool right_handed) {
+std::vector<bool> find_outlines(const std::vector<DrawShape>& shapes, const glm::dvec3& eye,
+                                bool right_handed) {
     std::vector<bool> inward(shapes.size(), false), found(shapes.size(), false);
     const std::vector<Piece> pieces = culled_pieces(shapes, right_handed);
     for (const Piece& piece : pieces)

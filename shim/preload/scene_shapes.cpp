@@ -49,7 +49,8 @@ void SceneShapes::read_part(std::size_t part) {
     const ScenePart& of = parts[part];
     const Wanted wanted{.marks = true, .only = &masks[part]};
     const std::vector<GLfloat> values = feed_back(
-        gl, [&](const GlTable& table) { replay_group(of.frame, of.scene, of.group, wanted, table); }, engine, GL_3D);
+        gl, [&](const GlTable& table) { replay_group(of.frame, of.scene, of.group, wanted, table); }, engine,
+        GL_3D);
     std::vector<std::size_t> shape_of(of.scene.draws.size(), shapes.size());
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i].part == part) shape_of[places[i].draw] = i;
@@ -82,7 +83,8 @@ Bounds SceneShapes::bounds_of_others() const {
     options.search = *engine.box;
     const DrawFunction draw = [&](const GlTable& table) {
         for (std::size_t part = 0; part < parts.size(); ++part)
-            replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &rest[part]}, table);
+            replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &rest[part]},
+                         table);
     };
     if (const auto box = find_box(gl, draw, options)) bounds.add(box->lo), bounds.add(box->lo + box->size);
     return bounds;

@@ -18,9 +18,10 @@ struct ScenePart {
 
 class SceneShapes {
   public:
-    /// Chooses among the solid draws: those with fewest triangles, while there are no more than `most_triangles` in all.
-    /// `engine.box`: around what is drawn.
-    SceneShapes(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine, long most_triangles);
+    /// Chooses among the solid draws: those with fewest triangles, while there are no more than
+    /// `most_triangles` in all. `engine.box`: around what is drawn.
+    SceneShapes(std::span<const ScenePart> parts, const GlTable& gl, const EngineOptions& engine,
+                long most_triangles);
     /// Asks GL for their polygons, inside the box. In the current context.
     void read();
 

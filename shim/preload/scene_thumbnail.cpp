@@ -135,7 +135,9 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     picture.stride = size;
     prepare(calls, target, frame.width, frame.height, false);
     gl.Disable(GL_CULL_FACE);
-    draw(thumbnail_table(calls, program_culls));
+    GlTable table = thumbnail_table(calls, program_culls);
+    ignore<&G::DepthMask>(table);
+    draw(table);
     gl.Finish();
     target.bind();
     target.read_depth(picture.depth);

@@ -29,7 +29,7 @@ struct DepthPicture {
     float at(int x, int y) const { return depth[std::size_t(y) * stride + x]; }
 };
 
-/// As draw_thumbnail. `culls`: as the program culls; else all faces are drawn.
+/// As draw_thumbnail, and whatever is drawn writes its depth. `culls`: as the program culls; else all faces are drawn.
 DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport, bool culls,
                          int size);
 

@@ -12,11 +12,11 @@ namespace glcast::preload {
 namespace {
 
 constexpr int picture_size = 192;
-constexpr double least_gap = 0.5;    ///< samples: a face that is nearer
+constexpr double least_gap = 0.5; ///< samples: a face that is nearer
 constexpr long least_pixels = 4;
-constexpr double least_depth = 4;    ///< samples: of free space that a place may lie in
-constexpr double off_surface = 2.5;  ///< samples
-constexpr int blocks = 5;            ///< along each side of the picture; one place in each
+constexpr double least_depth = 4;   ///< samples: of free space that a place may lie in
+constexpr double off_surface = 2.5; ///< samples
+constexpr int blocks = 5;           ///< along each side of the picture; one place in each
 static_assert(blocks * blocks <= most_seen_places);
 
 /// From a pixel and its depth to the capture frame.
@@ -25,7 +25,8 @@ class Unproject {
     Unproject(const Group& group, const EngineOptions& engine, const DepthPicture& of)
         : to_capture(engine.eye_to_capture * glm::inverse(group.projections.front())), picture(of) {}
     glm::dvec3 operator()(int x, int y, double depth) const {
-        const glm::dvec4 clip(2 * (x + 0.5) / picture.width - 1, 2 * (y + 0.5) / picture.height - 1, 2 * depth - 1, 1);
+        const glm::dvec4 clip(2 * (x + 0.5) / picture.width - 1, 2 * (y + 0.5) / picture.height - 1,
+                              2 * depth - 1, 1);
         const glm::dvec4 p = to_capture * clip;
         return glm::dvec3(p) / p.w;
     }
@@ -49,7 +50,17 @@ bool may_see_through(const Scene& scene, int index) {
     return culls;
 }
 
-SeenThrough see_through(const GlTable& gl, const DrawFunction& draw, const Group& group, const EngineOptions& engine) {
+bool shows_both_turns(const Scene& scene, int index) {
+    const auto shows = [&](Draw::Shown shown) {
+        return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
+            return draw.group == index && draw.shown == shown && is_solid(draw, scene.groups[index], true);
+        });
+    };
+    return shows(Draw::Shown::counter_clockwise) && shows(Draw::Shown::clockwise);
+}
+
+SeenThrough see_through(const GlTable& gl, const DrawFunction& draw, const Group& group,
+                        const EngineOptions& engine) {
     const DepthPicture shown = draw_depths(gl, draw, group.viewport, true, picture_size),
                        all = draw_depths(gl, draw, group.viewport, false, picture_size);
     const Unproject place(group, engine, shown);
