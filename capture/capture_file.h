@@ -22,9 +22,9 @@ struct CaptureInfo {
     glm::dmat4 eye_to_capture{1.0};
     /// Reference views (capture/reference_views.h): the frame of their capture to this one. Else none.
     std::optional<glm::dmat4> from_capture;
-    /// Where the program's own eye is, capture frame. None where all its rays are parallel, or in captures of glcast 0.1.0.
+    /// Where the program's own eye is, capture frame. None where all its rays are parallel, in reference views and in older captures.
     std::optional<glm::dvec3> eye;
-    /// Places in free space, capture frame, that the eye sees through faces which the program culls: a dozen of what may be
+    /// Places in free space, capture frame, that the eye sees through faces which the program culls: what may be
     /// rooms without their near walls. At most `most_seen_places`.
     std::vector<glm::dvec3> seen_places;
     std::string program;  ///< file name of the host program

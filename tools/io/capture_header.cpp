@@ -130,7 +130,7 @@ glm::dvec3 place_of(const Attributes& header, const std::string& name) {
     return {at[0], at[1], at[2]};
 }
 
-/// Captures of glcast 0.1.0 have none.
+/// Older captures have none.
 void read_places(const Attributes& header, CaptureInfo& info) {
     if (header.contains("glcast.eye")) info.eye = place_of(header, "glcast.eye");
     for (std::size_t k = 0; k < most_seen_places && header.contains(seen_place_name(k)); ++k)
