@@ -32,14 +32,18 @@ class GroupFilter final : public DrawGate {
         if (next >= scene.draws.size()) return false;
         const Draw& draw = scene.draws[next++];
         if (draw.group != group) return false;
-        if (wanted.transparent == Transparent::skip && blending) return false;
-        if (wanted.everything) return true;
-        if (!wants(draw)) return false;
+        const bool skipped = wanted.transparent == Transparent::skip && blending;
+        if (wanted.everything) return !skipped;
+        const bool is_wanted = !skipped && wants(draw);
+        if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
         if (draw.eye_map >= 0 || draw.nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
         return true;
     }
-    void drawn() override { eye_space.leave(); }
+    void drawn() override {
+        eye_space.leave();
+        if (wanted.stencil) wanted.stencil->end_draw();
+    }
 
   private:
     bool wants(const Draw& draw) const {
@@ -50,8 +54,7 @@ class GroupFilter final : public DrawGate {
 
     static bool is_solid(const Draw& draw, const Group& of) {
         if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
-        if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors])
-            return false;
+        if (is_reflection(draw, of)) return false;
         if (!of.writes_depth || draw.writes_depth) return true;
         return draw.tests_depth && !draw.before_depth;
     }
@@ -65,6 +68,10 @@ class GroupFilter final : public DrawGate {
 };
 
 } // namespace
+
+bool is_reflection(const Draw& draw, const Group& group) {
+    return draw.stencilled && group.open_triangles[draw.mirrors] < group.open_triangles[!draw.mirrors];
+}
 
 bool Group::same_place(const Group& other) const {
     if (framebuffer != other.framebuffer || draw_buffer != other.draw_buffer || viewport != other.viewport ||

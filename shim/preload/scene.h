@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "capture/program_stencil.h"
 #include "capture/view.h"
 #include "shim/preload/options.h"
 #include "shim/preload/sight.h"
+#include "shim/preload/stencil_events.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -78,6 +80,7 @@ struct Draw {
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
     bool mirrors = false;      ///< its modelview turns right hands into left ones
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    StencilUse stencil;        ///< as planned (stencil_plan.h)
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 
@@ -85,6 +88,8 @@ struct Scene {
     std::vector<Group> groups; ///< in the order of their first draws
     std::vector<Draw> draws;   ///< in the order of the frame
     std::vector<EyeMap> eye_maps;
+    std::vector<StencilEvent> stencil_events;
+    bool window_has_stencil = true; ///< or it is not known
     long pixels = 0;           ///< rectangles of pixels
 };
 
@@ -108,7 +113,12 @@ struct Wanted {
     bool lines = false, points = false;
     bool everything = false; ///< as the program draws it
     Transparent transparent = Transparent::by_alpha;
+    /// Where draws are cast only where their stencil test passes: told of each draw. Not with `everything`.
+    ProgramStencil* stencil = nullptr;
 };
+
+/// A draw that a stencil test keeps to a mirror.
+bool is_reflection(const Draw& draw, const Group& group);
 
 /// Replays the frame, but of its draws only some of one group.
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
