@@ -21,6 +21,7 @@
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
+#include "shim/preload/stencil_judge.h"
 #include "shim/preload/stencil_plan.h"
 #include "shim/preload/strokes.h"
 
@@ -348,7 +349,9 @@ class Cast {
         if (!gl.WindowPos2i || cutting_draws(scenes, candidate.group) > 0) return nullptr;
         for (std::size_t part = 0; part < parts.size(); ++part) {
             if (candidate.in_part[part] < 0) continue;
-            const StencilPlan plan = plan_stencil(scenes[part], candidate.in_part[part]);
+            const int group = candidate.in_part[part];
+            StencilPlan plan = plan_stencil(scenes[part], group);
+            judge(gl, *parts[part].frame, scenes[part], group, plan);
             stencil_plan.kept += plan.kept, stencil_plan.unfollowed += plan.unfollowed;
         }
         return stencil_plan.kept > 0 ? &stencil : nullptr;

@@ -14,6 +14,9 @@
 namespace glcast::preload {
 namespace {
 
+/// What is drawn over a surface without a depth test is nearer than it, as by glPolygonOffset.
+constexpr double decal_nudge = 1.0 / 1024;
+
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
@@ -36,8 +39,9 @@ class GroupFilter final : public DrawGate {
         if (wanted.everything) return !skipped;
         const bool is_wanted = !skipped && wants(draw);
         if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
-        if (draw.eye_map >= 0 || draw.nudge != 0)
-            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
+        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
+        if (draw.eye_map >= 0 || nudge != 0)
+            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
         return true;
     }
     void drawn() override {
@@ -54,7 +58,8 @@ class GroupFilter final : public DrawGate {
 
     static bool is_solid(const Draw& draw, const Group& of) {
         if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
-        if (is_reflection(draw, of)) return false;
+        if (is_reflection(draw, of) || draw.is_outline) return false;
+        if (draw.is_decal) return true;
         if (!of.writes_depth || draw.writes_depth) return true;
         return draw.tests_depth && !draw.before_depth;
     }

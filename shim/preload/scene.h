@@ -81,6 +81,8 @@ struct Draw {
     bool mirrors = false;      ///< its modelview turns right hands into left ones
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
     StencilUse stencil;        ///< as planned (stencil_plan.h)
+    bool is_outline = false;   ///< around the picture of something (stencil_plan.h)
+    bool is_decal = false;     ///< on a surface, without a depth test
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 

@@ -78,6 +78,36 @@ class Planner {
         }
         draw.stencil.is_kept = true;
         ++plan.kept;
+        ask(one, draw, passes_unmarked);
+    }
+
+    void ask(const StencilDraw& one, const Draw& draw, bool passes_unmarked) {
+        const auto cuts = [&](const StencilDraw& mark) { return !passes_marked(one, mark).value_or(!passes_unmarked); };
+        StencilQuestion question{one.draw, {}, true, passes_unmarked, true};
+        question.is_cut_out = draw.tests_depth || draw.writes_depth;
+        if (!question.is_cut_out && passes_unmarked) return; // drawn over what is there: never solid
+        for (const StencilDraw* mark : marks) {
+            const bool has_same_test = mark->front.function == one.front.function &&
+                                       mark->front.reference == one.front.reference && one.front.tests();
+            const bool is_surface = mark->shows && scene.draws[mark->draw].writes_depth;
+            if (has_same_test || cuts(*mark) != question.is_cut_out) continue;
+            if (!question.is_cut_out && !is_surface) continue;
+            question.marks.push_back(mark->draw);
+            question.marks_are_seen &= mark->shows;
+        }
+        if (!question.marks.empty()) plan.questions.push_back(std::move(question));
+    }
+
+    /// Where the mark is; nothing where what it leaves depends on what was there.
+    static std::optional<bool> passes_marked(const StencilDraw& one, const StencilDraw& mark) {
+        switch (mark.front.shown) {
+        case GL_REPLACE:
+            return one.front.passes(mark.front.reference & all_bits);
+        case GL_ZERO:
+            return one.front.passes(0);
+        default:
+            return std::nullopt;
+        }
     }
 
     bool can_be_followed(const StencilDraw& one) const {
@@ -123,12 +153,27 @@ class Planner {
     std::vector<const StencilDraw*> marks; ///< since it was cleared
 };
 
+constexpr int part = 8; ///< less than so small a part of the fragments is rounding
+
 } // namespace
 
 StencilPlan plan_stencil(Scene& scene, int group) {
     const bool has_buffer = scene.groups[group].framebuffer != 0 || scene.window_has_stencil;
     if (scene.stencil_events.empty() || !has_buffer) return {};
     return Planner(scene, group).run();
+}
+
+void answer(Scene& scene, StencilPlan& plan, const StencilQuestion& question, const Position& position) {
+    Draw& draw = scene.draws[question.draw];
+    if (!question.is_cut_out) {
+        draw.is_decal = position.all > 0 && part * (position.before + position.behind) <= position.all;
+        return;
+    }
+    draw.is_outline = part * position.before > position.all;
+    const bool is_whole = question.shows_unmarked && question.marks_are_seen;
+    if (!draw.is_outline && !is_whole) return;
+    draw.stencil.is_kept = false;
+    --plan.kept;
 }
 
 } // namespace glcast::preload
