@@ -6,6 +6,8 @@
 
 extern Display* display;
 extern XVisualInfo* visual;
+/* Bits of stencil that windows are made with; 0 at first. */
+extern int stencil_size;
 Window make_window(int width, int height);
 GLXContext make_context(GLXContext share);
 /* A box from lo to hi; faces counter-clockwise from outside, flat normals. */
