@@ -20,8 +20,8 @@ GLint get_int(const GlTable& gl, GLenum name) {
 
 /// The program's pixel paths are not for our mask.
 void reset_pixel_paths(const GlTable& gl) {
-    constexpr GLenum zero[] = {GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS,
-                               GL_UNPACK_SKIP_ROWS};
+    constexpr GLenum zero[] = {GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH,
+                               GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS};
     for (const GLenum name : zero) gl.PixelStorei(name, 0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (const GLenum name : {GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET}) gl.PixelTransferi(name, 0);
@@ -121,7 +121,8 @@ void ProgramStencil::find(const StencilUse& use) {
         last_test.reset();
     }
     if (use.is_kept) {
-        const Test test{get_int(gl, GL_STENCIL_FUNC), get_int(gl, GL_STENCIL_REF), get_int(gl, GL_STENCIL_VALUE_MASK)};
+        const Test test{get_int(gl, GL_STENCIL_FUNC), get_int(gl, GL_STENCIL_REF),
+                        get_int(gl, GL_STENCIL_VALUE_MASK)};
         Masks& masks = of_side[static_cast<std::size_t>(*viewer)];
         masks.push_back(last_test == test ? masks.back() : read_mask(test));
         last_test = test;
@@ -141,7 +142,8 @@ std::shared_ptr<const ProgramStencil::Mask> ProgramStencil::read_mask(const Test
     mask->rect = bounds_of(PixelRect::whole(n), n, [&](std::size_t p) { return bit_of[stencil[p]] != 0; });
     for_each_pixel(mask->rect, n, [&](std::size_t p) { mask->bits.push_back(bit_of[stencil[p]]); });
     const auto is_set = [](std::uint8_t bit) { return bit != 0; };
-    mask->is_all = mask->bits.size() == stencil.size() && std::all_of(mask->bits.begin(), mask->bits.end(), is_set);
+    mask->is_all =
+        mask->bits.size() == stencil.size() && std::all_of(mask->bits.begin(), mask->bits.end(), is_set);
     return mask;
 }
 
@@ -161,8 +163,8 @@ std::shared_ptr<const ProgramStencil::Mask> ProgramStencil::either(const Mask& a
     if (a.rect.empty() || b.rect.empty())
         rect = a.rect.empty() ? b.rect : a.rect;
     else
-        rect = {std::min(a.rect.x0, b.rect.x0), std::min(a.rect.y0, b.rect.y0), std::max(a.rect.x1, b.rect.x1),
-                std::max(a.rect.y1, b.rect.y1)};
+        rect = {std::min(a.rect.x0, b.rect.x0), std::min(a.rect.y0, b.rect.y0),
+                std::max(a.rect.x1, b.rect.x1), std::max(a.rect.y1, b.rect.y1)};
     mask->is_all = a.is_all || b.is_all;
     const auto width = static_cast<std::size_t>(rect.x1 - rect.x0);
     mask->bits.resize(width * static_cast<std::size_t>(rect.y1 - rect.y0));
@@ -170,7 +172,8 @@ std::shared_ptr<const ProgramStencil::Mask> ProgramStencil::either(const Mask& a
         auto bit = from->bits.begin();
         for (int y = from->rect.y0; y < from->rect.y1; ++y)
             for (int x = from->rect.x0; x < from->rect.x1; ++x)
-                mask->bits[static_cast<std::size_t>(y - rect.y0) * width + static_cast<std::size_t>(x - rect.x0)] |= *bit++;
+                mask->bits[static_cast<std::size_t>(y - rect.y0) * width +
+                           static_cast<std::size_t>(x - rect.x0)] |= *bit++;
     }
     return mask;
 }
@@ -181,8 +184,8 @@ void ProgramStencil::write(const Mask& mask) const {
     reset_pixel_paths(gl);
     gl.StencilMask(stencil_mask_bit);
     gl.WindowPos2i(mask.rect.x0, mask.rect.y0);
-    gl.DrawPixels(mask.rect.x1 - mask.rect.x0, mask.rect.y1 - mask.rect.y0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE,
-                  mask.bits.data());
+    gl.DrawPixels(mask.rect.x1 - mask.rect.x0, mask.rect.y1 - mask.rect.y0, GL_STENCIL_INDEX,
+                  GL_UNSIGNED_BYTE, mask.bits.data());
     gl.StencilMask(stencil_count_bits);
 }
 

@@ -1,14 +1,15 @@
-// What the program's stencil buffer holds in each of our views, and what its stencil test lets through there: caps of
-// cut solids, concave faces filled by parity, decals.
+// What the program's stencil buffer holds in each of our views, and what its stencil test lets through there:
+// caps of cut solids, concave faces filled by parity, decals.
 //
-// Before the first pass of a view the draws that write the stencil buffer are played under that view, with the
-// program's own stencil state and face culling. At each draw that a stencil test keeps to places the buffer is read,
-// and the test worked out for each pixel: a mask. Every pass of the view then draws that draw through its mask, which
-// lies in a bit of the stencil buffer that the engine does not need (stencil_rule.h).
+// Before the first pass of a view the draws that write the stencil buffer are played under that view, with
+// the program's own stencil state and face culling. At each draw that a stencil test keeps to places the
+// buffer is read, and the test worked out for each pixel: a mask. Every pass of the view then draws that draw
+// through its mask, which lies in a bit of the stencil buffer that the engine does not need (stencil_rule.h).
 //
-// The marks are played without a depth test, so what lies on a ray marks it, be it hidden or not. So one mask holds
-// for all layers, and shows in none of them what another layer hides. Where the direction of the view matters, as it
-// does for a count of fronts and backs that stops at 0, an inner layer shows what either side lets through.
+// The marks are played without a depth test, so what lies on a ray marks it, be it hidden or not. So one mask
+// holds for all layers, and shows in none of them what another layer hides. Where the direction of the view
+// matters, as it does for a count of fronts and backs that stops at 0, an inner layer shows what either side
+// lets through.
 #pragma once
 #include <array>
 #include <memory>
@@ -35,8 +36,8 @@ struct StencilUse {
 /// Shared by whoever plays the scene, which tells of each draw, and the engine.
 class ProgramStencil {
   public:
-    /// Before a draw, outside of glBegin; the state of the draw is set. `is_solid`: it is to be drawn at all. False: it
-    /// is not to be played now.
+    /// Before a draw, outside of glBegin; the state of the draw is set. `is_solid`: it is to be drawn at all.
+    /// False: it is not to be played now.
     bool begin_draw(const StencilUse& use, bool is_solid);
     /// After it, if it was played.
     void end_draw();
@@ -53,7 +54,8 @@ class ProgramStencil {
     bool knows(Side viewer) const { return known[static_cast<std::size_t>(viewer)]; }
     /// The draws are played to find the masks of a viewer on this side; to the target that is bound.
     void begin_finding(const Target& target, Side viewer);
-    /// The draws are played for a pass. `viewer`: whose masks hold; none: either's. `only`: the scissor that is set.
+    /// The draws are played for a pass. `viewer`: whose masks hold; none: either's. `only`: the scissor that
+    /// is set.
     void begin_pass(const std::optional<Side>& viewer, const std::optional<PixelRect>& only);
     void end();
 
@@ -85,8 +87,8 @@ class ProgramStencil {
     std::optional<Side> viewer;
     std::optional<PixelRect> scissor;
     const Target* target = nullptr;
-    std::size_t next = 0;       ///< kept draw of the playing
-    const Mask* open = nullptr; ///< of the draw that is being played
+    std::size_t next = 0;          ///< kept draw of the playing
+    const Mask* open = nullptr;    ///< of the draw that is being played
     std::optional<Test> last_test; ///< of the kept draw before, where the buffer is still the same
 };
 

@@ -15,14 +15,16 @@ GLint get_int(const GlTable& gl, GLenum name) {
 
 StencilFace front_now(const GlTable& gl) {
     const auto get = [&](GLenum name) { return static_cast<GLuint>(get_int(gl, name)); };
-    return {get(GL_STENCIL_FUNC), get_int(gl, GL_STENCIL_REF), get(GL_STENCIL_VALUE_MASK), get(GL_STENCIL_WRITEMASK),
-            get(GL_STENCIL_FAIL), get(GL_STENCIL_PASS_DEPTH_FAIL), get(GL_STENCIL_PASS_DEPTH_PASS)};
+    return {get(GL_STENCIL_FUNC),           get_int(gl, GL_STENCIL_REF), get(GL_STENCIL_VALUE_MASK),
+            get(GL_STENCIL_WRITEMASK),      get(GL_STENCIL_FAIL),        get(GL_STENCIL_PASS_DEPTH_FAIL),
+            get(GL_STENCIL_PASS_DEPTH_PASS)};
 }
 
 StencilFace back_now(const GlTable& gl) {
     const auto get = [&](GLenum name) { return static_cast<GLuint>(get_int(gl, name)); };
-    return {get(GL_STENCIL_BACK_FUNC), get_int(gl, GL_STENCIL_BACK_REF), get(GL_STENCIL_BACK_VALUE_MASK),
-            get(GL_STENCIL_BACK_WRITEMASK), get(GL_STENCIL_BACK_FAIL), get(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
+    return {get(GL_STENCIL_BACK_FUNC),           get_int(gl, GL_STENCIL_BACK_REF),
+            get(GL_STENCIL_BACK_VALUE_MASK),     get(GL_STENCIL_BACK_WRITEMASK),
+            get(GL_STENCIL_BACK_FAIL),           get(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
             get(GL_STENCIL_BACK_PASS_DEPTH_PASS)};
 }
 
@@ -57,7 +59,8 @@ StencilDraw stencil_draw_now(const GlTable& gl, std::size_t number) {
     GLboolean mask[4] = {};
     gl.GetBooleanv(GL_COLOR_WRITEMASK, mask);
     draw.shows = mask[0] || mask[1] || mask[2];
-    for (GLenum plane = 0; plane < 6; ++plane) draw.is_clipped |= gl.IsEnabled(GL_CLIP_PLANE0 + plane) == GL_TRUE;
+    for (GLenum plane = 0; plane < 6; ++plane)
+        draw.is_clipped |= gl.IsEnabled(GL_CLIP_PLANE0 + plane) == GL_TRUE;
     return draw;
 }
 

@@ -35,7 +35,7 @@ struct StencilDraw {
     StencilFace front, back;
     bool tests_depth = false;
     GLenum depth_function = GL_LESS;
-    bool shows = true;     ///< it writes colours
+    bool shows = true;       ///< it writes colours
     bool is_clipped = false; ///< by the program's clip planes
 };
 

@@ -44,9 +44,7 @@ struct Ignored;
 template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
     static R APIENTRY call(A...) { return R(); }
 };
-template <auto... Members> void ignore(GlTable& table) {
-    ((table.*Members = Ignored<Members>::call), ...);
-}
+template <auto... Members> void ignore(GlTable& table) { ((table.*Members = Ignored<Members>::call), ...); }
 
 /// The program's drawing without its depth test, culling and offsets, which are the judge's.
 GlTable judges_table(const GlTable& picture) {
@@ -132,7 +130,8 @@ void prepare(const GlTable& gl, const Target& target, const Group& group) {
     const auto& viewport = group.viewport;
     const int longer = std::max({viewport[2], viewport[3], 1});
     target.bind();
-    gl.Viewport(0, 0, std::max(1, picture_size * viewport[2] / longer), std::max(1, picture_size * viewport[3] / longer));
+    gl.Viewport(0, 0, std::max(1, picture_size * viewport[2] / longer),
+                std::max(1, picture_size * viewport[3] / longer));
     for (const GLenum cap : {GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND, GL_LIGHTING}) gl.Disable(cap);
     for (const GLenum cap : {GL_DEPTH_TEST, GL_STENCIL_TEST}) gl.Enable(cap);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -144,8 +143,9 @@ void prepare(const GlTable& gl, const Target& target, const Group& group) {
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-std::vector<long> count(const GlTable& gl, const Target& target, const record::Frame& frame, const Group& group,
-                        const std::vector<std::size_t>& marks, const std::vector<std::size_t>& draws, Counted what) {
+std::vector<long> count(const GlTable& gl, const Target& target, const record::Frame& frame,
+                        const Group& group, const std::vector<std::size_t>& marks,
+                        const std::vector<std::size_t>& draws, Counted what) {
     prepare(gl, target, group);
     const GlTable picture = picture_table(gl), table = judges_table(picture);
     std::vector<long> counts;
@@ -157,8 +157,8 @@ std::vector<long> count(const GlTable& gl, const Target& target, const record::F
 }
 
 bool can_count(const GlTable& gl) {
-    return has_framebuffer_calls(gl) && gl.GenQueries && gl.BeginQuery && gl.EndQuery && gl.GetQueryObjectuiv &&
-           gl.DeleteQueries;
+    return has_framebuffer_calls(gl) && gl.GenQueries && gl.BeginQuery && gl.EndQuery &&
+           gl.GetQueryObjectuiv && gl.DeleteQueries;
 }
 
 } // namespace
@@ -176,7 +176,8 @@ void judge(const GlTable& real, const record::Frame& frame, Scene& scene, int gr
         const auto counted = [&](Counted what) {
             return count(gl, target, frame, scene.groups[group], marks, draws, what);
         };
-        const auto all = counted(Counted::all), before = counted(Counted::before), behind = counted(Counted::behind);
+        const auto all = counted(Counted::all), before = counted(Counted::before),
+                   behind = counted(Counted::behind);
         for (std::size_t i = 0; i < questions.size(); ++i)
             answer(scene, plan, *questions[i], {all[i], before[i], behind[i]});
     }

@@ -5,9 +5,9 @@
 
 namespace glcast::preload {
 
-/// Draws the group's marks, and each draw in question over them, into a small framebuffer of ours in the current
-/// context, as the program looks at them, and counts fragments. Without occlusion queries every question stays open.
-/// A frame without questions draws nothing.
+/// Draws the group's marks, and each draw in question over them, into a small framebuffer of ours in the
+/// current context, as the program looks at them, and counts fragments. Without occlusion queries every
+/// question stays open. A frame without questions draws nothing.
 void judge(const GlTable& gl, const record::Frame& frame, Scene& scene, int group, StencilPlan& plan);
 
 } // namespace glcast::preload

@@ -18,7 +18,8 @@ bool contains(const std::array<GLint, 4>& outer, const std::array<GLint, 4>& inn
 }
 
 bool counts(GLenum operation) {
-    return operation == GL_INCR || operation == GL_DECR || operation == GL_INCR_WRAP || operation == GL_DECR_WRAP;
+    return operation == GL_INCR || operation == GL_DECR || operation == GL_INCR_WRAP ||
+           operation == GL_DECR_WRAP;
 }
 
 /// Goes through the events of one group's place.
@@ -82,7 +83,9 @@ class Planner {
     }
 
     void ask(const StencilDraw& one, const Draw& draw, bool passes_unmarked) {
-        const auto cuts = [&](const StencilDraw& mark) { return !passes_marked(one, mark).value_or(!passes_unmarked); };
+        const auto cuts = [&](const StencilDraw& mark) {
+            return !passes_marked(one, mark).value_or(!passes_unmarked);
+        };
         StencilQuestion question{one.draw, {}, true, passes_unmarked, true};
         question.is_cut_out = draw.tests_depth || draw.writes_depth;
         if (!question.is_cut_out && passes_unmarked) return; // drawn over what is there: never solid
@@ -111,7 +114,8 @@ class Planner {
     }
 
     bool can_be_followed(const StencilDraw& one) const {
-        const bool same_for_both = one.front.function == one.back.function && one.front.bits == one.back.bits &&
+        const bool same_for_both = one.front.function == one.back.function &&
+                                   one.front.bits == one.back.bits &&
                                    one.front.reference == one.back.reference;
         if (!same_for_both || marks.empty() || is_partial) return false;
         return std::all_of(marks.begin(), marks.end(), [&](const StencilDraw* mark) {
@@ -124,10 +128,12 @@ class Planner {
         if (!mark.tests_depth) return false;
         const auto same = [](const StencilFace& face) { return face.hidden == face.shown; };
         if (same(mark.front) && same(mark.back)) return false;
-        const auto only_hidden = [](const StencilFace& face) { return face.shown == GL_KEEP && face.hidden != GL_KEEP; };
+        const auto only_hidden = [](const StencilFace& face) {
+            return face.shown == GL_KEEP && face.hidden != GL_KEEP;
+        };
         const GLenum function = mark.depth_function;
-        return function == GL_GREATER || function == GL_GEQUAL || function == GL_NEVER || function == GL_NOTEQUAL ||
-               only_hidden(mark.front) || only_hidden(mark.back);
+        return function == GL_GREATER || function == GL_GEQUAL || function == GL_NEVER ||
+               function == GL_NOTEQUAL || only_hidden(mark.front) || only_hidden(mark.back);
     }
 
     /// What they count is how many of their faces lie before, or behind, what is drawn already.
@@ -137,8 +143,8 @@ class Planner {
             const auto by_depth = [](const StencilFace& face) {
                 return face.hidden != face.shown && (counts(face.hidden) || counts(face.shown));
             };
-            return mark->tests_depth && !mark->shows && !draw.writes_depth && !draw.before_depth && !mark->is_clipped &&
-                   (by_depth(mark->front) || by_depth(mark->back));
+            return mark->tests_depth && !mark->shows && !draw.writes_depth && !draw.before_depth &&
+                   !mark->is_clipped && (by_depth(mark->front) || by_depth(mark->back));
         });
     }
 
