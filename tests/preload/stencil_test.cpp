@@ -76,6 +76,7 @@ constexpr double root_of_8 = 2.8284271247461903;
 INSTANTIATE_TEST_SUITE_P(Programs, Stencils,
                          testing::Values(Truth{"cap_by_two_passes", 4, 16, 0, 4}, Truth{"cap_by_invert", 4, 16, 0, 4},
                                          Truth{"cap_by_two_sides", 4, 16, 0, 4},
+                                         Truth{"cap_by_extension", 4, 16, 0, 4},
                                          Truth{"cap_of_a_hollow_box", 3.5, 18, 0, 3},
                                          Truth{"cap_beside_others", 8, 32, 0, 4},
                                          Truth{"cap_askew", 4, 12 + 2 * root_of_8, 0, 2 * root_of_8},

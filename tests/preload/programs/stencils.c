@@ -48,6 +48,13 @@ static void count_two_sided(void (*body)(void)) {
     glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_DECR_WRAP);
     body(), end_marks();
 }
+static void count_two_sided_by_extension(void (*body)(void)) {
+    void (*active_face)(GLenum) = (void (*)(GLenum))glXGetProcAddress((const GLubyte*)"glActiveStencilFaceEXT");
+    begin_marks(1), glEnable(GL_STENCIL_TEST_TWO_SIDE_EXT);
+    active_face(GL_BACK), glStencilFunc(GL_ALWAYS, 0, ~0u), glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_INCR_WRAP);
+    active_face(GL_FRONT), glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_DECR_WRAP);
+    body(), glDisable(GL_STENCIL_TEST_TWO_SIDE_EXT), end_marks();
+}
 static void plane(int which, double x, double y, double z) {
     const double equation[4] = {x, y, z, 0};
     glClipPlane(GL_CLIP_PLANE0 + which, equation), glEnable(GL_CLIP_PLANE0 + which);
@@ -61,6 +68,7 @@ static void capped(void (*mark)(void (*)(void)), void (*body)(void), GLuint bits
 static void cap_by_two_passes(void) { capped(count_culled, solid, ~0u); }
 static void cap_by_invert(void) { capped(invert, solid, 1); }
 static void cap_by_two_sides(void) { capped(count_two_sided, solid, ~0u); }
+static void cap_by_extension(void) { capped(count_two_sided_by_extension, solid, ~0u); }
 static void hollow(void) {
     static const float inner[2][3] = {{-.5f, -.5f, -.5f}, {.5f, .5f, .5f}};
     solid(), glFrontFace(GL_CW), box(inner), glFrontFace(GL_CCW);
@@ -202,6 +210,7 @@ static const struct Way {
     {"cap_by_two_passes", cap_by_two_passes},
     {"cap_by_invert", cap_by_invert},
     {"cap_by_two_sides", cap_by_two_sides},
+    {"cap_by_extension", cap_by_extension},
     {"cap_of_a_hollow_box", cap_of_a_hollow_box},
     {"cap_beside_others", cap_beside_others},
     {"cap_askew", cap_askew},
