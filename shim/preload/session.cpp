@@ -305,17 +305,22 @@ void picture_is_read(Session& s, NativeContext& context, long pixels) {
     if (!has_read_a_picture(s, context, pixels)) return;
     ++s.frames;
     const FrameKey window(&context, drawable);
+    if (s.pictures_read == 1) count_first_read(s);
+    if (!s.triggers.waiting()) return;
     long number = 0, wish = 0;
     bool is_first = false;
     {
         const std::lock_guard lock(s.mutex);
         is_first = s.pictures_read++ == 0;
-        number = ++s.ended[window].frames;
-        wish = std::max(s.ended[window].next_wish, s.options.frame);
+        if (is_first) s.first_read = window;
+        Ended& ended = s.ended[window];
+        number = ended.frames + 1;
+        if (!is_first) ++ended.frames;
+        wish = std::max(ended.next_wish, s.options.frame);
     }
     auto parts = is_first ? lend_parts(s, context) : take_parts(s, &context, drawable);
     keep_of_this_display(parts);
-    if (number >= wish) cast_parts(s, std::move(parts), &context, window, number, FrameEnd::read);
+    if (number >= wish) cast_parts(s, std::move(parts), &context, window, number, is_first ? FrameEnd::first_read : FrameEnd::read);
     start_recording(s, context, drawable);
 }
 

@@ -45,6 +45,8 @@ bool chooses_a_window(const Options& options) {
     return options.window.empty() && (options.list || (options.captures == 1 && options.group == 0));
 }
 
+bool takes_one(const Options& options) { return options.list || options.captures == 1; }
+
 /// What is held is the last word. From any thread.
 void settle(Session& s) {
     if (!s.holding.exchange(false)) return;
@@ -113,11 +115,13 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     std::unique_lock lock(s.mutex);
     if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
         s.seen.other_windows.clear();
-        const bool may_follow = end == FrameEnd::read || s.windows.others_may_follow(drawable);
-        if (chooses_a_window(s.options) && may_follow && !s.told_looks.exchange(true))
-            tell("looks", s.windows.list());
+        const bool may_follow = end == FrameEnd::shown
+                                    ? chooses_a_window(s.options) && s.windows.others_may_follow(drawable)
+                                    : takes_one(s.options);
+        if (may_follow && !s.told_looks.exchange(true)) tell("looks", s.windows.list());
         return CastWindow{s.windows.describe(drawable),
-                          s.holding && !s.read_is_held ? s.windows.held() : std::nullopt, s.holding,
+                          s.holding && !s.read_is_held ? s.windows.held() : std::nullopt,
+                          s.holding || (s.read_is_open && end == FrameEnd::shown),
                           s.inquiry.unanswered()};
     }
     Census other;
@@ -129,12 +133,14 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
 }
 
 /// A frame that a read has ended is held: a swap may soon show what is better. False: it is to be taken as any.
-bool holds_a_read(Session& s, const CastResult& result) {
+bool holds_a_read(Session& s, const CastResult& result, FrameEnd end) {
     const bool shown = result.outcome == CastOutcome::captured || result.outcome == CastOutcome::listed;
-    if (!shown || !chooses_a_window(s.options)) return false;
+    const bool is_only = takes_one(s.options);
+    if (!shown || (!is_only && end != FrameEnd::first_read)) return false;
     if (speaks_alone()) say("%s, ended by a read: nothing was swapped", result.message.c_str());
-    s.read_is_held = true;
-    hold(s);
+    (is_only ? s.read_is_held : s.read_is_open) = true;
+    s.settled = true;
+    if (is_only) hold(s);
     return true;
 }
 
@@ -256,12 +262,25 @@ bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext
     if (!turn) return false;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
-    if (end == FrameEnd::read ? !holds_a_read(s, result) : !among_windows(s, window.second, result))
+    if (end == FrameEnd::shown && s.read_is_open.exchange(false) && nothing) s.triggers.taken(); // it stays
+    if (end == FrameEnd::shown ? !among_windows(s, window.second, result) : !holds_a_read(s, result, end))
         nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
     return !nothing;
 }
 
 } // namespace
+
+void count_first_read(Session& s) {
+    const bool is_cast = s.read_is_open.exchange(false);
+    {
+        const std::lock_guard lock(s.mutex);
+        Ended& ended = s.ended[s.first_read];
+        ++ended.frames;
+        if (is_cast) ended.next_wish = ended.frames + s.options.every;
+    }
+    if (is_cast) s.triggers.taken();
+    update_unwanted(s);
+}
 
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number, FrameEnd end) {
