@@ -19,8 +19,12 @@ SceneShapes::SceneShapes(std::span<const ScenePart> of, const GlTable& table, co
         const Scene& scene = parts[part].scene;
         for (std::size_t i = 0; i < scene.draws.size(); ++i)
             if (scene.draws[i].group == parts[part].group &&
-                is_solid(scene.draws[i], scene.groups[parts[part].group], false))
-                all.push_back({part, i});
+                is_solid(scene.draws[i], scene.groups[parts[part].group], false)) {
+                if (scene.draws[i].stencil.is_kept)
+                    ++others; // wherever its corners are
+                else
+                    all.push_back({part, i});
+            }
         masks.emplace_back(scene.draws.size(), 0);
     }
     std::vector<std::size_t> order(all.size());
@@ -83,7 +87,7 @@ Bounds SceneShapes::bounds_of_others() const {
     options.search = *engine.box;
     const DrawFunction draw = [&](const GlTable& table) {
         for (std::size_t part = 0; part < parts.size(); ++part)
-            replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &rest[part]},
+            replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &rest[part], .stencil = engine.stencil},
                          table);
     };
     if (const auto box = find_box(gl, draw, options)) bounds.add(box->lo), bounds.add(box->lo + box->size);

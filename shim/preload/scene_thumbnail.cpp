@@ -34,8 +34,9 @@ template <auto... Members> void ignore(GlTable& table) {
 
 using G = GlTable;
 
-/// The program's drawing, but where to and what it wipes away.
-GlTable thumbnail_table(const GlTable& gl, bool program_culls = true) {
+} // namespace
+
+GlTable picture_table(const GlTable& gl, bool program_culls) {
     real = &gl;
     culls = program_culls;
     GlTable table = gl;
@@ -51,6 +52,8 @@ GlTable thumbnail_table(const GlTable& gl, bool program_culls = true) {
     table.PushAttrib = push_attrib;
     return table;
 }
+
+namespace {
 
 void prepare(const GlTable& gl, const Target& target, int width, int height, bool depth_reversed) {
     target.bind();
@@ -115,7 +118,7 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
     const Target target(calls, size, false);
     if (!target.complete()) return thumbnail;
     prepare(calls, target, thumbnail.width, thumbnail.height, depth_reversed);
-    draw(thumbnail_table(calls));
+    draw(picture_table(calls));
     gl.Finish();
     target.bind();
     read(calls, target, thumbnail);
@@ -135,7 +138,7 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     picture.stride = size;
     prepare(calls, target, frame.width, frame.height, false);
     gl.Disable(GL_CULL_FACE);
-    GlTable table = thumbnail_table(calls, program_culls);
+    GlTable table = picture_table(calls, program_culls);
     ignore<&G::DepthMask>(table);
     draw(table);
     gl.Finish();
