@@ -87,8 +87,8 @@ Bounds SceneShapes::bounds_of_others() const {
     options.search = *engine.box;
     const DrawFunction draw = [&](const GlTable& table) {
         for (std::size_t part = 0; part < parts.size(); ++part)
-            replay_group(parts[part].frame, parts[part].scene, parts[part].group, {.only = &rest[part], .stencil = engine.stencil},
-                         table);
+            replay_group(parts[part].frame, parts[part].scene, parts[part].group,
+                         {.only = &rest[part], .stencil = engine.stencil}, table);
     };
     if (const auto box = find_box(gl, draw, options)) bounds.add(box->lo), bounds.add(box->lo + box->size);
     return bounds;

@@ -13,6 +13,8 @@ inline CaptureInfo sphere_info(int n) {
     info.n = n;
     info.box = {glm::dvec3(-1.5, -0.5, 2), 3.0};
     info.eye_to_capture = glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.25, -10, 1);
+    info.eye = glm::dvec3(-0.5, -0.25, 10);
+    info.seen_places = {glm::dvec3(1, 2, 3), glm::dvec3(0, -1e9, 0.125)};
     info.program = "sphere";
     info.frame = 7;
     info.renderer = "none (made by a test)";

@@ -106,6 +106,8 @@ TEST_P(CaptureFileRoundTrip, PixelsAndAttributes) {
     EXPECT_EQ(capture.info.box.lo, info.box.lo);
     EXPECT_EQ(capture.info.box.size, info.box.size);
     EXPECT_EQ(capture.info.eye_to_capture, info.eye_to_capture);
+    EXPECT_EQ(capture.info.eye, info.eye);
+    EXPECT_EQ(capture.info.seen_places, info.seen_places);
     EXPECT_EQ(capture.info.program, info.program);
     EXPECT_EQ(capture.info.frame, info.frame);
     EXPECT_EQ(capture.info.renderer, info.renderer);

@@ -96,6 +96,23 @@ TEST_F(HostileCapture, AnAttributeIsAsLongAsItsType) {
     }
 }
 
+TEST_F(HostileCapture, PlacesAreNumbersOrNotThere) {
+    const RawCapture good(whole());
+    for (const char* name : {"glcast.eye", "glcast.seenPlace.0"}) {
+        RawCapture bad = good;
+        bad.set(name, raw(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0));
+        has(why(bad), std::string(name) + " is not finite");
+        RawCapture without = good;
+        for (auto& part : without.parts) std::erase_if(part, [&](const auto& a) { return a.name == name; });
+        EXPECT_EQ(why(without), "") << name;
+    }
+    RawCapture many = good; // those beyond the most are not read
+    for (int k = 2; k < 100; ++k)
+        many.add("glcast.seenPlace." + std::to_string(k), "v3d", raw(1.0, 2.0, 3.0));
+    EXPECT_EQ(why(many), "");
+    EXPECT_EQ(read_capture_info(folder / "h.exr").seen_places.size(), std::size_t(most_seen_places));
+}
+
 TEST_F(HostileCapture, EveryAttributeOfACaptureOfAnotherLength) {
     const RawCapture good(whole());
     for (const RawAttribute& a : good.parts[1])

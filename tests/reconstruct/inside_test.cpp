@@ -14,7 +14,9 @@ ReconstructOptions seen_from(std::vector<glm::dvec3> eyes) {
     return how;
 }
 
-double volume(const Body& body, const ReconstructOptions& how) { return topology(cast_deep(body, n, how).mesh).volume; }
+double volume(const Body& body, const ReconstructOptions& how) {
+    return topology(cast_deep(body, n, how).mesh).volume;
+}
 
 BodyPtr turned_box(const glm::dvec3& centre, const glm::dvec3& half) {
     const glm::dmat3 turn = turned({1, 2, 3}, 20);
@@ -55,7 +57,8 @@ TEST(Inside, ARoomWithTheEyeInItIsARoom) {
 
 TEST(Inside, AnEyeAtAWallStandsInItsRoom) {
     const Room room{0.1};
-    const glm::dvec3 at = turned({1, 2, 3}, 20) * glm::dvec3(room.half.x - room.thickness - 1.5 * sample_size(n), 0, 0.2);
+    const glm::dvec3 at =
+        turned({1, 2, 3}, 20) * glm::dvec3(room.half.x - room.thickness - 1.5 * sample_size(n), 0, 0.2);
     EXPECT_NEAR(volume(*room.body(), seen_from({at})), room.matter(), 0.02 * room.matter());
 }
 
@@ -63,7 +66,8 @@ TEST(Inside, CavernsAreOpenAsFarAsTheyHangTogether) {
     const glm::dvec3 along(0.6, 0.64, 0.48);
     const BodyPtr rock = box({0, 0, 0}, glm::dvec3(0.9));
     const auto ball = [](const glm::dvec3& at, double r) { return sphere(at, r); };
-    const BodyPtr joined = unite({ball(along * -0.45, 0.3), ball(along * 0.45, 0.25), cylinder({0, 0, 0}, along, 0.1, 0.4)});
+    const BodyPtr joined =
+        unite({ball(along * -0.45, 0.3), ball(along * 0.45, 0.25), cylinder({0, 0, 0}, along, 0.1, 0.4)});
     const BodyPtr alone = ball({0.5, -0.5, 0}, 0.2);
     const BodyPtr body = subtract(rock, unite({joined, alone}));
     const double whole = std::pow(1.8, 3);
