@@ -226,7 +226,7 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
     app.add_option("--backdrop", o.backdrop,
-                   "keep: cast skies and pictures behind the scene too (default: left out, with a line that says so)")
+                   "keep: cast skies, pictures behind the scene and outlines too (default: left out, with a line that says so)")
         ->envname("GLCAST_BACKDROP")
         ->check(CLI::IsMember({"keep"}));
     app.add_option("--fov", o.view_angle,
