@@ -42,6 +42,7 @@ TEST(Library, needs_only_the_c_library) {
                                            "ld-linux-aarch64.so.1"};
     EXPECT_FALSE(needed.empty());
     for (const std::string& library : needed) EXPECT_TRUE(allowed.contains(library)) << library;
+    EXPECT_TRUE(matches(output_of({"readelf", "-dW", GLCAST_SHIM}), R"(\((RPATH|RUNPATH)\))").empty());
 }
 
 TEST(Library, loads_with_glibc_2_17) {
