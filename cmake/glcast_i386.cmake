@@ -1,7 +1,7 @@
 # The same library for 32-bit programs, built beside the 64-bit one where the compiler and a static zlib can (Debian: g++-multilib, lib32z1-dev).
 # Both lie as they are installed, lib/TRIPLET/glcast, so that the loader of each process finds its own by $LIB.
-function(glcast_preload_link triplet library target)
-    set(folder ${PROJECT_BINARY_DIR}/lib/${triplet}/glcast)
+function(glcast_preload_link lib library target)
+    set(folder ${PROJECT_BINARY_DIR}/${lib}/glcast)
     add_custom_command(OUTPUT ${folder}/libglcast.so
         COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
         COMMAND ${CMAKE_COMMAND} -E create_symlink ${library} ${folder}/libglcast.so
@@ -9,7 +9,7 @@ function(glcast_preload_link triplet library target)
     add_custom_target(${target} ALL DEPENDS ${folder}/libglcast.so)
 endfunction()
 if(CMAKE_LIBRARY_ARCHITECTURE)
-    glcast_preload_link(${CMAKE_LIBRARY_ARCHITECTURE} $<TARGET_FILE:glcast_preload> glcast_preload_place)
+    glcast_preload_link(lib/${CMAKE_LIBRARY_ARCHITECTURE} $<TARGET_FILE:glcast_preload> glcast_preload_place)
 endif()
 
 if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" OR GLCAST_SANITIZE)
@@ -44,6 +44,12 @@ ExternalProject_Add(glcast_i386
     BUILD_BYPRODUCTS ${GLCAST_I386_BUILD}/shim/preload/libglcast.so
     INSTALL_COMMAND ""
     USES_TERMINAL_BUILD ON) # one after the other: the processors are shared with this build
-glcast_preload_link(i386-linux-gnu ${GLCAST_I386_BUILD}/shim/preload/libglcast.so glcast_i386_place)
+# Debian has two loaders for 32-bit programs: of the architecture i386, and of libc6-i386, which puts lib32 for $LIB.
+glcast_preload_link(lib/i386-linux-gnu ${GLCAST_I386_BUILD}/shim/preload/libglcast.so glcast_i386_place)
+glcast_preload_link(lib32 ${GLCAST_I386_BUILD}/shim/preload/libglcast.so glcast_lib32_place)
 add_dependencies(glcast_i386_place glcast_i386)
+add_dependencies(glcast_lib32_place glcast_i386)
 install(FILES ${GLCAST_I386_BUILD}/shim/preload/libglcast.so DESTINATION lib/i386-linux-gnu/glcast COMPONENT i386)
+install(CODE "file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast\")
+file(CREATE_LINK ../../lib/i386-linux-gnu/glcast/libglcast.so \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast/libglcast.so\" SYMBOLIC)"
+    COMPONENT i386)
