@@ -56,6 +56,9 @@ bool write_off(FileSet& files, const std::filesystem::path& path, const Level& l
 bool write_stl(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
 bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
 
+/// "colour_cc1a00": of a plain colour, in .glb and .mtl.
+std::string material_name(const glm::vec3& colour);
+
 [[noreturn]] void refuse(const std::string& why);
 
 std::vector<Level> one_level(Mesh mesh);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -17,11 +18,19 @@
 #include "tools/io/input_file.h"
 #include "tools/io/level_set.h"
 #include "tools/io/mesh_format.h"
+#include "tools/mesh/face_colours.h"
 
 namespace glcast {
 namespace format {
 
 void refuse(const std::string& why) { throw std::runtime_error(why); }
+
+std::string material_name(const glm::vec3& colour) {
+    const auto byte = [](float c) { return unsigned(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)); };
+    char name[32];
+    std::snprintf(name, sizeof name, "colour_%02x%02x%02x", byte(colour.x), byte(colour.y), byte(colour.z));
+    return name;
+}
 
 std::vector<Level> one_level(Mesh mesh) {
     std::vector<Level> levels(1);
@@ -227,6 +236,14 @@ Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels
 
 std::string note_on(const std::filesystem::path& path, const Level& level) {
     const Format& f = format_of(path);
+    if (f.write == format::write_obj || f.write == format::write_off) {
+        const bool textured = !level.texture.empty() && f.write == format::write_obj;
+        if (textured || level.wedges.colours.empty() || (f.write == format::write_obj && !face_colours(level).empty()))
+            return {};
+        return path.string() + ": a vertex has one colour in " + f.extension +
+               ": where several meet, that of its largest side; " +
+               (f.write == format::write_obj ? "--texture keeps them" : ".glb and .ply keep them");
+    }
     const glm::dvec3 from = format::origin_of_floats(level.mesh);
     if ((f.write != format::write_stl && f.write != format::write_3mf) || from == glm::dvec3(0)) return {};
     return path.string() + ": the model is moved by " + format::moved_by(from) +

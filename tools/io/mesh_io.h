@@ -43,7 +43,8 @@ void round_levels(std::span<Level> levels, Compression compression);
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options = {});
 
-/// A line on what a format cannot hold of the level as it is, or nothing: .stl and .3mf of a mesh far from the origin.
+/// A line on what a format cannot hold of the level as it is, or nothing: .stl and .3mf of a mesh far from the origin, .obj and
+/// .off of a vertex with several colours.
 std::string note_on(const std::filesystem::path& path, const Level& level);
 
 /// Bytes of the level as a .glb of its own. Throws as write_levels does.

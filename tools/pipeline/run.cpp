@@ -205,6 +205,12 @@ void Run::make_levels() {
     made.seconds.simplify = watch.seconds();
 }
 
+/// Or materials. What a progressive mesh holds stays as it is.
+bool Run::has_textures() const {
+    return options.surface.method != SurfaceMethod::cubes &&
+           (options.texture.kind != TextureChoice::Kind::none || options.progressive.empty());
+}
+
 void Run::texture(Draft& draft) {
     std::string why_not;
     draft.texture = texture_level(draft.level, captured, options.texture, why_not);
@@ -212,8 +218,7 @@ void Run::texture(Draft& draft) {
 }
 
 void Run::make_textures() {
-    if (options.texture.kind == TextureChoice::Kind::none || options.surface.method == SurfaceMethod::cubes)
-        return;
+    if (!has_textures()) return;
     stage("baking textures");
     const Stopwatch watch;
     for (Draft& draft : drafts) texture(draft);
@@ -259,7 +264,7 @@ void Run::measure() {
             SizedLevel finer = search->finer({{}, draft.count});
             finer.level.name = draft.level.name, finer.level.pixels = draft.level.pixels;
             draft.level = std::move(finer.level), draft.count = finer.count;
-            if (draft.texture || options.texture.kind == TextureChoice::Kind::by_need) texture(draft);
+            if (has_textures()) texture(draft);
         }
         if (options.compression != Compression::none) {
             which.resize(drafts.size());
