@@ -249,3 +249,26 @@ TEST(WedgesInFiles, EqualCornersAreNoWedges) {
     EXPECT_EQ(one.normals.size(), mesh.positions.size() + 1);
     EXPECT_TRUE(one.colours.empty());
 }
+
+/// What a file holds is what was checked; what floats would spoil stays.
+TEST(Floats, HoldWhatIsCheckedBefore) {
+    const Folder folder;
+    Level level{torus(12, 8), "level 0"};
+    const std::vector<glm::dvec3> before = level.mesh.positions;
+    hold_in_floats(level.mesh);
+    EXPECT_NE(level.mesh.positions, before);
+    write_levels(folder / "t.ply", std::vector{level});
+    EXPECT_NE(read_text(folder / "t.ply").find("property float x"), std::string::npos);
+    for (const char* name : {"t.ply", "t.glb"}) {
+        write_levels(folder / name, std::vector{level});
+        EXPECT_EQ(read_mesh(folder / name).positions, level.mesh.positions) << name;
+    }
+    Mesh far = torus(12, 8), close = torus(12, 8);
+    for (glm::dvec3& p : far.positions) p.x += 4'500'000;
+    close.positions[1] = close.positions[0] + glm::dvec3(0, 0, 1e-12);
+    for (Mesh* mesh : {&far, &close}) {
+        const std::vector<glm::dvec3> kept = mesh->positions;
+        hold_in_floats(*mesh);
+        EXPECT_EQ(mesh->positions, kept);
+    }
+}

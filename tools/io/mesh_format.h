@@ -21,6 +21,7 @@ std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path&
 std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path& path);
 std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path& path);
 std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_3mf(std::string_view bytes, const std::filesystem::path& path);
 
 /// The files of a run, which appear together.
 class FileSet {

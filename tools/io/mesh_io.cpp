@@ -1,6 +1,7 @@
 #include "tools/io/mesh_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "capture/output_file.h"
 #include "tools/io/input_file.h"
@@ -106,7 +108,7 @@ constexpr Format formats[] = {
     {".ply", format::read_ply, format::write_ply, false},
     {".off", format::read_off, format::write_off, false},
     {".stl", format::read_stl, format::write_stl, false},
-    {".3mf", nullptr, format::write_3mf, false},
+    {".3mf", format::read_3mf, format::write_3mf, false},
 };
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -114,7 +116,7 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf (to write) or .gltf (to read)");
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf or .gltf (to read)");
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -211,7 +213,6 @@ void write_glbs(format::FileSet& files, const std::filesystem::path& path, std::
 std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
-        if (!f.read) format::refuse(std::string(f.extension) + " is written only");
         const std::string bytes = read_file(path);
         std::vector<Level> levels = f.read(bytes, path);
         for (Level& level : levels) tidy(level);
@@ -251,6 +252,17 @@ std::string note_on(const std::filesystem::path& path, const Level& level) {
 }
 
 std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }
+
+void hold_in_floats(Mesh& mesh) {
+    if (format::needs_doubles(mesh)) return;
+    std::vector<std::array<float, 3>> rounded;
+    for (const glm::dvec3& p : mesh.positions) rounded.push_back({float(p.x), float(p.y), float(p.z)});
+    std::vector<std::array<float, 3>> sorted = rounded;
+    tbb::parallel_sort(sorted);
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return;
+    for (std::size_t v = 0; v < rounded.size(); ++v)
+        mesh.positions[v] = glm::dvec3(rounded[v][0], rounded[v][1], rounded[v][2]);
+}
 
 void round_levels(std::span<Level> levels, Compression compression) {
     if (compression == Compression::none || levels.empty()) return;

@@ -1,6 +1,7 @@
 // Wavefront .obj, written: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f; an .mtl
 // where there are a texture or plain colours of faces.
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 #include "tools/io/level_set.h"
@@ -33,7 +34,9 @@ bool write_mtl(FileSet& files, const std::filesystem::path& path, const Texture&
     Gather out(files.companion(mtl.replace_extension(".mtl")));
     out << "# glcast " GLCAST_VERSION "\n";
     const auto material = [&](const std::string& name, const glm::vec3& kd) {
-        out << "newmtl " << name << "\nKa 0 0 0\nKd " << kd.x << ' ' << kd.y << ' ' << kd.z << "\nKs 0 0 0\nillum 1\n";
+        char diffuse[64]; // VTK 9.1 (f3d) takes no exponents here
+        std::snprintf(diffuse, sizeof diffuse, "%.6f %.6f %.6f", double(kd.x), double(kd.y), double(kd.z));
+        out << "newmtl " << name << "\nKa 0 0 0\nKd " << diffuse << "\nKs 0 0 0\nillum 1\n";
     };
     if (!texture.empty()) {
         material(textured_material, glm::vec3(1));

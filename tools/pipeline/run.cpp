@@ -201,6 +201,9 @@ void Run::make_levels() {
     if (drafts.size() == std::size_t(options.full) && !options.progressive.empty())
         (void)levels_of_one_run(full.mesh, {}, log);
     drop_doubles();
+    if (!options.progressive.empty()) // as glcast refine has it, without the capture
+        for (Draft& draft : drafts)
+            if (!is_full(draft.level)) fit_wedges(draft.level, full.mesh);
     for (std::size_t k = 0; k < drafts.size(); ++k) drafts[k].level.name = level_name(named, k);
     made.seconds.simplify = watch.seconds();
 }
@@ -228,6 +231,9 @@ void Run::make_textures() {
 /// Against the full surface; where the files will hold rounded levels, these.
 void Run::measure_drafts(const std::vector<std::size_t>& which) {
     const bool rounds = options.compression != Compression::none;
+    if (!rounds && options.progressive.empty())
+        for (const std::size_t k : which)
+            if (!is_full(drafts[k].level)) hold_in_floats(drafts[k].level.mesh);
     if (rounds) {
         rounded.clear();
         for (const Draft& draft : drafts) rounded.push_back(draft.level);
