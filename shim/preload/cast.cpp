@@ -14,6 +14,7 @@
 #include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
+#include "shim/preload/backdrop_search.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
@@ -237,6 +238,7 @@ class Cast {
     }
     DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
         wanted.transparent = transparent;
+        wanted.backdrops = options.keep_backdrops;
         return [this, &candidate, wanted](const GlTable& table) {
             patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
@@ -327,6 +329,7 @@ class Cast {
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
+        if (engine.box && !options.box) leave_out(candidate, as_drawn, engine);
         if (!engine.box && !patience.over().empty()) return failure(patience.over());
         if (!engine.box) {
             CastResult nothing = nothing_solid();
@@ -335,6 +338,18 @@ class Cast {
         }
         tell("casting", std::to_string(number));
         return write(candidate, engine);
+    }
+
+    /// Backdrops, and the box is found anew. A box that is asked for holds what is wanted.
+    void leave_out(const Candidate& candidate, const DrawFunction& as_drawn, EngineOptions& engine) {
+        if (options.keep_backdrops) return;
+        std::vector<ScenePart> of;
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (candidate.in_part[part] >= 0)
+                of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
+        const LeftOut left = leave_out_backdrops(of, gl, engine, candidate.picture.coverage);
+        if (left.draws > 0) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
+        if (!left.text.empty()) say_once("%s", left.text.c_str());
     }
 
     /// It is all see-through, or what is solid of it is nothing.

@@ -5,6 +5,7 @@
 // matrix is changed while it is drawn (eye_space.h). In a frame with one projection nothing is.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
@@ -77,6 +78,10 @@ struct Draw {
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
     bool mirrors = false;      ///< its modelview turns right hands into left ones
+    bool textured = false, lit = false;
+    bool pinned = false;       ///< the depth range leaves it the far plane alone
+    bool backdrop = false;     ///< as backdrop_search.h has found
+    long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
@@ -107,8 +112,14 @@ struct Wanted {
     bool solid = true;
     bool lines = false, points = false;
     bool everything = false; ///< as the program draws it
+    bool backdrops = false;  ///< too: skies, backgrounds
+    bool marks = false;      ///< glPassThrough of -1 - (index into Scene::draws) before each draw
+    const std::vector<std::uint8_t>* only = nullptr; ///< by index into Scene::draws: those that are not 0
     Transparent transparent = Transparent::by_alpha;
 };
+
+/// Is it one of the draws of its group that are cast? `backdrops`: these too.
+bool is_solid(const Draw& draw, const Group& of, bool backdrops);
 
 /// Replays the frame, but of its draws only some of one group.
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
@@ -116,6 +127,10 @@ void replay_group(const record::Frame& frame, const Scene& scene, int group, con
 
 /// "3360 triangles in 12 draws, perspective, viewport 0 0 800 600".
 std::string describe(const Group& group);
+
+/// Where the group is seen from, in the capture frame; far away where all rays are parallel. Nothing when the projection
+/// has no inverse.
+std::optional<glm::dvec3> eye_of(const Group& group, const glm::dmat4& eye_to_capture);
 
 /// A cube around the group's view volume in the capture frame, its far plane taken no further than
 /// `far_ratio` times as far away from the eye as its near plane. Nothing when the projection has no inverse.

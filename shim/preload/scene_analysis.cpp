@@ -129,6 +129,9 @@ class Analysis final : public DrawGate {
         draw.before_depth = !group.writes_depth;
         draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
         draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        draw.textured = is_textured();
+        draw.lit = inner.IsEnabled(GL_LIGHTING);
+        draw.pinned = tests && is_pinned(group);
         draw.eye_map = eye_map_of(sight, group);
         const EyeMap* map = draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr;
         draw.mirrors = mirrors(map ? map->apply(modelview) : modelview);
@@ -159,8 +162,9 @@ class Analysis final : public DrawGate {
 
     void add_primitives(long number) override {
         if (scene.draws.empty()) return; // a lone glEnd
-        const Draw& draw = scene.draws.back();
+        Draw& draw = scene.draws.back();
         Group& group = scene.groups[draw.group];
+        draw.triangles += number;
         (draw.kind == Draw::Kind::filled     ? group.triangles
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
@@ -205,6 +209,18 @@ class Analysis final : public DrawGate {
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
         return mask[0] || mask[1] || mask[2];
+    }
+
+    /// By the texture unit that is active, which in a frame with one is that one.
+    bool is_textured() const {
+        return inner.IsEnabled(GL_TEXTURE_2D) || inner.IsEnabled(GL_TEXTURE_CUBE_MAP) ||
+               inner.IsEnabled(GL_TEXTURE_RECTANGLE) || inner.IsEnabled(GL_TEXTURE_1D);
+    }
+
+    bool is_pinned(const Group& group) const {
+        GLfloat range[2] = {0, 1};
+        inner.GetFloatv(GL_DEPTH_RANGE, range);
+        return range[0] == range[1] && range[0] == (group.depth_reversed ? 0 : 1);
     }
 
     Draw::Kind kind_of(GLenum mode) const {

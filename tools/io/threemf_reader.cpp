@@ -130,7 +130,7 @@ class Model {
         }
         if (kind != MODELPROPERTYTYPE_COLOR) return {};
         MODELMESHCOLOR_SRGB colour{};
-        good(lib3mf_defaultpropertyhandler_getcolor(whole, &colour));
+        good(lib3mf_defaultpropertyhandler_getcolor(whole, 0, &colour));
         coloured = true;
         return colour_of(colour.m_Red, colour.m_Green, colour.m_Blue);
     }
