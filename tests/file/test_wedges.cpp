@@ -265,7 +265,7 @@ TEST(Floats, HoldWhatIsCheckedBefore) {
     }
     Mesh far = torus(12, 8), close = torus(12, 8);
     for (glm::dvec3& p : far.positions) p.x += 4'500'000;
-    close.positions[1] = close.positions[0] + glm::dvec3(0, 0, 1e-12);
+    close.positions[1] = close.positions[0] + glm::dvec3(1e-12, 0, 0);
     for (Mesh* mesh : {&far, &close}) {
         const std::vector<glm::dvec3> kept = mesh->positions;
         hold_in_floats(*mesh);
