@@ -132,7 +132,7 @@ TEST(WedgesInFiles, StandBesideSeamsOfATexture) {
     }
 }
 
-/// A mesh for each of the six colours, with vertices of its own.
+/// In .glb a mesh for each of the six colours, with vertices of its own.
 TEST(WedgesInFiles, AreSplitVerticesForOthers) {
     const Folder folder;
     write_levels(folder / "c.glb", std::vector{cube()});
@@ -141,7 +141,7 @@ TEST(WedgesInFiles, AreSplitVerticesForOthers) {
         SCOPED_TRACE(name);
         const Scene read((folder / name).string());
         ASSERT_TRUE(read.scene) << aiGetErrorString();
-        ASSERT_EQ(read.scene->mNumMeshes, 6u);
+        ASSERT_EQ(read.scene->mNumMeshes, std::string(name) == "c.glb" ? 6u : 1u);
         unsigned faces = 0, vertices = 0;
         for (unsigned m = 0; m < read.scene->mNumMeshes; ++m) {
             const aiMesh& mesh = *read.scene->mMeshes[m];
@@ -209,13 +209,15 @@ TEST(PlainColours, StayApartWhereTheFileDoesNotFit) {
     }
 }
 
-TEST(PlainColours, AreMaterialsInObjAndOthersHaveALine) {
+TEST(PlainColours, AreAPictureInObjAndOthersHaveALine) {
     const Folder folder;
     write_levels(folder / "c.obj", std::vector{cube()});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"c.colour.png", "c.mtl", "c.obj"}));
     EXPECT_EQ(note_on(folder / "c.obj", cube()), "");
     const std::string obj = read_text(folder / "c.obj"), mtl = read_text(folder / "c.mtl");
-    EXPECT_NE(obj.find("usemtl colour_ff3333\n"), obj.npos);
-    EXPECT_NE(mtl.find("newmtl colour_ff3333\n"), mtl.npos);
+    EXPECT_NE(obj.find("vt 0.0625 0.5\n"), obj.npos) << "the first of eight squares";
+    EXPECT_NE(mtl.find("Kd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd c.colour.png\n"), mtl.npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "c.colour.png"));
     EXPECT_NE(obj.find("v 1 1 1\n"), obj.npos) << "no colours behind: readers multiply them";
     Level mixed = cube();
     mixed.wedges.colours[0] = {1, 1, 1};

@@ -58,8 +58,12 @@ TEST(ColourPatches, PlainColoursUnderNoiseAreOneEach) {
 /// Triangles across a border are of one side or the other.
 TEST(ColourPatches, ABorderOfMixedTrianglesIsAllowed) {
     Level level = torus_of([](double u, double v) { return u == 0 && v > 0.5 ? 0.5f * (red + blue) : u < 0.5 ? red : blue; });
+    const std::vector<glm::vec3> normals = level.mesh.normals;
     ASSERT_TRUE(take_patch_colours(level));
     EXPECT_EQ(face_colours(level).palette.size(), 2u);
+    EXPECT_EQ(level.mesh.normals, normals) << "of the largest wedges, for readers that know one a vertex";
+    for (const glm::vec3& colour : level.mesh.colours)
+        EXPECT_TRUE(glm::distance(colour, red) < 0.01f || glm::distance(colour, blue) < 0.01f);
 }
 
 TEST(ColourPatches, OneColourIsOne) {

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "tools/mesh/face_colours.h"
 
@@ -85,6 +86,23 @@ std::vector<glm::vec3> plain_colours(std::vector<Patch> patches, double of_none,
     return palette;
 }
 
+/// A vertex on a border has the colour of its largest side, for readers that know one colour a vertex.
+void take_largest_colours(Level& level, const std::vector<Face>& faces, const CornerValues& colours) {
+    std::vector<std::vector<std::pair<glm::vec3, double>>> sides(level.mesh.positions.size());
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (const std::uint32_t v : level.mesh.triangles[t]) {
+            const auto same_colour = [&](const auto& side) { return side.first == colours[t][0]; };
+            auto at = std::find_if(sides[v].begin(), sides[v].end(), same_colour);
+            if (at == sides[v].end()) at = sides[v].insert(at, {colours[t][0], 0});
+            at->second += faces[t].area;
+        }
+    for (std::size_t v = 0; v < sides.size(); ++v)
+        if (!sides[v].empty())
+            level.mesh.colours[v] = std::max_element(sides[v].begin(), sides[v].end(), [](const auto& a, const auto& b) {
+                                        return a.second < b.second;
+                                    })->first;
+}
+
 } // namespace
 
 bool take_patch_colours(Level& level) {
@@ -103,7 +121,10 @@ bool take_patch_colours(Level& level) {
         colours.push_back({*nearest, *nearest, *nearest});
         if (has_normals(level.mesh, level.wedges)) normals.push_back(corner_normals(level.mesh, level.wedges, t));
     }
+    std::vector<glm::vec3> own = level.mesh.normals; // of the largest wedges
     level.wedges = take_corner_values(level.mesh, normals, colours);
+    if (own.size() == level.mesh.positions.size()) level.mesh.normals = std::move(own);
+    if (!level.wedges.empty()) take_largest_colours(level, faces, colours);
     return true;
 }
 
