@@ -128,7 +128,9 @@ class Analysis final : public DrawGate {
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
         draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        const bool is_open = draw.writes_depth && !draw.stencilled;
+        draw.is_open = is_open && writes_colour();
+        draw.hides = is_open && !draw.is_open && draw.kind == Draw::Kind::filled;
         draw.textured = is_textured();
         draw.lit = inner.IsEnabled(GL_LIGHTING);
         draw.pinned = tests && is_pinned(group);
@@ -169,6 +171,7 @@ class Analysis final : public DrawGate {
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
                                              : group.points) += number;
+        if (draw.hides) group.hidden_triangles += number;
         if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
         if (gives_w && hands_over_clip) wonder_about_w();
     }
@@ -237,6 +240,7 @@ class Analysis final : public DrawGate {
         now.framebuffer = framebuffer;
         now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
         now.viewport = viewport;
+        inner.GetFloatv(GL_COLOR_CLEAR_VALUE, now.background.data());
         now.projection = sight.projection;
         now.kind = sight.perspective ? ProjectionKind::perspective
                    : tests_depth     ? ProjectionKind::orthographic
