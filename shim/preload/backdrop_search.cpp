@@ -52,12 +52,17 @@ class Search {
 
     /// The solid draws, those with fewest triangles first; in the order of the frame.
     void choose() {
+        std::size_t kept = 0;
         for (std::size_t part = 0; part < parts.size(); ++part) {
             const Scene& scene = parts[part].scene;
             for (std::size_t i = 0; i < scene.draws.size(); ++i)
                 if (scene.draws[i].group == parts[part].group &&
-                    is_solid(scene.draws[i], scene.groups[parts[part].group], false))
-                    places.push_back({part, i});
+                    is_solid(scene.draws[i], scene.groups[parts[part].group], false)) {
+                    if (scene.draws[i].stencil.is_kept)
+                        ++kept; // wherever its corners are
+                    else
+                        places.push_back({part, i});
+                }
         }
         std::vector<std::size_t> order(places.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -74,7 +79,7 @@ class Search {
             masks[places[i].part][places[i].draw] = 1;
             plain.push_back(places[i]);
         }
-        rich = places.size() - plain.size();
+        rich = kept + places.size() - plain.size();
         places = std::move(plain);
         for (const Place& place : places) {
             const Draw& draw = at(place);
@@ -156,7 +161,7 @@ class Search {
             [&](const GlTable& table) {
                 for (std::size_t part = 0; part < parts.size(); ++part)
                     replay_group(parts[part].frame, parts[part].scene, parts[part].group,
-                                 {.only = &others[part]}, table);
+                                 {.only = &others[part], .stencil = engine.stencil}, table);
             },
             options);
         if (box) bounds.add(box->lo), bounds.add(box->lo + box->size);

@@ -22,6 +22,8 @@
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
+#include "shim/preload/stencil_judge.h"
+#include "shim/preload/stencil_plan.h"
 #include "shim/preload/strokes.h"
 
 namespace glcast::preload {
@@ -221,6 +223,8 @@ class Cast {
     std::vector<Candidate> candidates;
     mutable Patience patience{options.most_seconds, patience_lines()};
     bool has_drawn = false, has_only_looked = false;
+    mutable ProgramStencil stencil;
+    StencilPlan stencil_plan;
 
     /// Asked of GL itself: glvnd has the entry points in any case.
     bool draws_into_framebuffers() {
@@ -238,6 +242,7 @@ class Cast {
     }
     DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
         wanted.transparent = transparent;
+        wanted.stencil = stencil_plan.kept > 0 ? &stencil : nullptr;
         wanted.backdrops = options.keep_backdrops;
         return [this, &candidate, wanted](const GlTable& table) {
             patience.render_begins();
@@ -327,6 +332,7 @@ class Cast {
         engine.mirrored_projection = group.is_mirrored();
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
+        engine.stencil = follow_stencil(candidate);
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
@@ -339,6 +345,20 @@ class Cast {
         }
         tell("casting", std::to_string(number));
         return write(candidate, engine);
+    }
+
+    /// What the draws have to do with the stencil buffer, where some are kept to places by it; else null.
+    ProgramStencil* follow_stencil(const Candidate& candidate) {
+        stencil_plan = {};
+        if (!gl.WindowPos2i || cutting_draws(scenes, candidate.group) > 0) return nullptr;
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (candidate.in_part[part] < 0) continue;
+            const int group = candidate.in_part[part];
+            StencilPlan plan = plan_stencil(scenes[part], group);
+            judge(gl, *parts[part].frame, scenes[part], group, plan);
+            stencil_plan.kept += plan.kept, stencil_plan.unfollowed += plan.unfollowed;
+        }
+        return stencil_plan.kept > 0 ? &stencil : nullptr;
     }
 
     /// Backdrops, and the box is found anew. A box that is asked for holds what is wanted.
@@ -405,6 +425,9 @@ class Cast {
         if (group.judged_by_function && options.transparent == Transparent::by_alpha)
             not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =
                 group.judged_by_function;
+        if (stencil_plan.unfollowed > 0)
+            not_understood["a draw that a stencil test keeps to places which other views cannot tell: cast whole"] =
+                stencil_plan.unfollowed;
         if (group.with_own_w)
             not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
                 group.with_own_w;

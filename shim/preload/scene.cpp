@@ -15,6 +15,9 @@
 namespace glcast::preload {
 namespace {
 
+/// What is drawn over a surface without a depth test is nearer than it, as by glPolygonOffset.
+constexpr double decal_nudge = 1.0 / 1024;
+
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
@@ -33,11 +36,14 @@ class GroupFilter final : public DrawGate {
         if (next >= scene.draws.size()) return false;
         const std::size_t number = next++;
         const Draw& draw = scene.draws[number];
-        if (draw.group != group || (wanted.only && !(*wanted.only)[number])) return false;
-        if (wanted.transparent == Transparent::skip && blending) return false;
-        if (wanted.everything) return true;
-        if (!wants(draw)) return false;
+        if (draw.group != group) return false;
+        const bool skipped = (wanted.only && !(*wanted.only)[number]) ||
+                             (wanted.transparent == Transparent::skip && blending);
+        if (wanted.everything) return !skipped;
+        const bool is_wanted = !skipped && wants(draw);
+        if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
         if (wanted.marks) inner.PassThrough(-1 - static_cast<GLfloat>(number));
+<<<<<<< HEAD
         if (draw.eye_map >= 0 || draw.nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
         if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
@@ -49,6 +55,17 @@ class GroupFilter final : public DrawGate {
     }
     bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
     bool fixes_colour() const override { return hidden_faces.entered(); }
+=======
+        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
+        if (draw.eye_map >= 0 || nudge != 0)
+            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
+        return true;
+    }
+    void drawn() override {
+        eye_space.leave();
+        if (wanted.stencil) wanted.stencil->end_draw();
+    }
+>>>>>>> main
 
   private:
     bool wants(const Draw& draw) const {
@@ -68,9 +85,14 @@ class GroupFilter final : public DrawGate {
 
 } // namespace
 
+bool is_reflection(const Draw& draw, const Group& group) {
+    return draw.stencilled && group.open_triangles[draw.mirrors] < group.open_triangles[!draw.mirrors];
+}
+
 bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
-    if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors]) return false;
+    if (is_reflection(draw, of) || draw.is_outline) return false;
+    if (draw.is_decal) return true;
     if (draw.backdrop) return backdrops;
     if (!of.writes_depth || draw.writes_depth) return true;
     return draw.before_depth ? backdrops : draw.tests_depth;

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "capture/program_stencil.h"
 #include "capture/view.h"
 #include "shim/preload/options.h"
 #include "shim/preload/sight.h"
+#include "shim/preload/stencil_events.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -90,6 +92,9 @@ struct Draw {
     bool backdrop = false;     ///< as backdrop_search.h has found
     long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    StencilUse stencil;        ///< as planned (stencil_plan.h)
+    bool is_outline = false;   ///< around the picture of something (stencil_plan.h)
+    bool is_decal = false;     ///< on a surface, without a depth test
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 
@@ -97,6 +102,8 @@ struct Scene {
     std::vector<Group> groups; ///< in the order of their first draws
     std::vector<Draw> draws;   ///< in the order of the frame
     std::vector<EyeMap> eye_maps;
+    std::vector<StencilEvent> stencil_events;
+    bool window_has_stencil = true; ///< or it is not known
     long pixels = 0;           ///< rectangles of pixels
 };
 
@@ -123,8 +130,12 @@ struct Wanted {
     bool marks = false;      ///< glPassThrough of -1 - (index into Scene::draws) before each draw
     const std::vector<std::uint8_t>* only = nullptr; ///< by index into Scene::draws: those that are not 0
     Transparent transparent = Transparent::by_alpha;
+    /// Where draws are cast only where their stencil test passes: told of each draw. Not with `everything`.
+    ProgramStencil* stencil = nullptr;
 };
 
+/// A draw that a stencil test keeps to a mirror.
+bool is_reflection(const Draw& draw, const Group& group);
 /// Is it one of the draws of its group that are cast? `backdrops`: these too.
 bool is_solid(const Draw& draw, const Group& of, bool backdrops);
 

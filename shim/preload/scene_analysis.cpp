@@ -96,6 +96,8 @@ class Analysis final : public DrawGate {
 
     /// What was drawn before to the same place is no longer seen.
     void cleared(GLbitfield buffers) override {
+        if (buffers & GL_STENCIL_BUFFER_BIT)
+            scene.stencil_events.emplace_back(stencil_clear_now(inner, framebuffer));
         if (!(buffers & GL_COLOR_BUFFER_BIT)) return;
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
@@ -127,10 +129,16 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
+<<<<<<< HEAD
         draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
         const bool is_open = draw.writes_depth && !draw.stencilled;
         draw.is_open = is_open && writes_colour();
         draw.hides = is_open && !draw.is_open && draw.kind == Draw::Kind::filled;
+=======
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST);
+        draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
+        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+>>>>>>> main
         draw.textured = is_textured();
         draw.lit = inner.IsEnabled(GL_LIGHTING);
         draw.pinned = tests && is_pinned(group);
@@ -157,6 +165,7 @@ class Analysis final : public DrawGate {
         ++group.draws;
         group.last_draw = static_cast<long>(scene.draws.size());
         hands_over_clip = sight.projection == glm::dmat4(1.0) && modelview == glm::dmat4(1.0);
+        if (tests_stencil) scene.stencil_events.emplace_back(stencil_draw_now(inner, scene.draws.size()));
         scene.draws.push_back(draw);
         add_primitives(primitives);
         return ask(sight);
@@ -187,6 +196,7 @@ class Analysis final : public DrawGate {
 
     /// After the frame.
     void finish(std::optional<double> view_angle) {
+        scene.window_has_stencil = get_int(inner, GL_STENCIL_BITS) > 0 || get_int(inner, GL_RED_BITS) == 0;
         for (const auto& [index, fits] : clip_draws) understand(index, fits, view_angle);
         for (Group& group : scene.groups) {
             if (group.framebuffer == 0 || !group.is_spatial()) continue;

@@ -4,10 +4,11 @@
 
 Display* display;
 XVisualInfo* visual;
+int stencil_size;
 
 Window make_window(int width, int height) {
     if (!display && !(display = XOpenDisplay(0))) exit(10);
-    int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
+    int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, GLX_STENCIL_SIZE, stencil_size, None};
     if (!visual && !(visual = glXChooseVisual(display, DefaultScreen(display), attributes))) exit(11);
     const Window root = RootWindow(display, visual->screen);
     XSetWindowAttributes looks = {0};

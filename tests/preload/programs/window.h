@@ -8,5 +8,7 @@
 
 extern Display* display;
 extern XVisualInfo* visual;
+/* Bits of stencil that windows are made with; 0 at first. */
+extern int stencil_size;
 Window make_window(int width, int height);
 GLXContext make_context(GLXContext share);
