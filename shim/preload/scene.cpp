@@ -43,29 +43,19 @@ class GroupFilter final : public DrawGate {
         const bool is_wanted = !skipped && wants(draw);
         if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
         if (wanted.marks) inner.PassThrough(-1 - static_cast<GLfloat>(number));
-<<<<<<< HEAD
-        if (draw.eye_map >= 0 || draw.nudge != 0)
-            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
+        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
+        if (draw.eye_map >= 0 || nudge != 0)
+            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
         if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
         return true;
     }
     void drawn() override {
         hidden_faces.leave();
         eye_space.leave();
+        if (wanted.stencil) wanted.stencil->end_draw();
     }
     bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
     bool fixes_colour() const override { return hidden_faces.entered(); }
-=======
-        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
-        if (draw.eye_map >= 0 || nudge != 0)
-            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
-        return true;
-    }
-    void drawn() override {
-        eye_space.leave();
-        if (wanted.stencil) wanted.stencil->end_draw();
-    }
->>>>>>> main
 
   private:
     bool wants(const Draw& draw) const {

@@ -129,16 +129,10 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
-<<<<<<< HEAD
-        draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        const bool is_open = draw.writes_depth && !draw.stencilled;
-        draw.is_open = is_open && writes_colour();
-        draw.hides = is_open && !draw.is_open && draw.kind == Draw::Kind::filled;
-=======
-        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST);
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST), colours = writes_colour();
         draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
->>>>>>> main
+        draw.is_open = draw.writes_depth && !draw.stencilled && colours;
+        draw.hides = draw.writes_depth && !tests_stencil && !colours && draw.kind == Draw::Kind::filled;
         draw.textured = is_textured();
         draw.lit = inner.IsEnabled(GL_LIGHTING);
         draw.pinned = tests && is_pinned(group);
