@@ -265,6 +265,7 @@ class Cast {
         CastResult result{CastOutcome::nothing_solid, ""};
         for (const Candidate& c : candidates) {
             (is_scene(c) ? result.held.solid : result.held.flat) += c.group.triangles + c.group.outlined;
+            if (is_scene(c)) result.held.masked += c.group.hidden_triangles;
             result.held.lines += c.group.lines;
             result.held.points += c.group.points;
         }
@@ -413,6 +414,13 @@ class Cast {
                 group.draws;
             say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
                      "--fov DEGREES tells it");
+        }
+        if (group.is_hidden_line()) {
+            not_understood["faces drawn into the depth buffer alone (hidden lines): in the colour of the background"] =
+                group.hidden_triangles;
+            if (group.lines > 0 && !options.include.lines)
+                say_once("hidden-line drawing: its faces are cast in the colour of the background; --include lines casts "
+                         "its lines too");
         }
         if (group.judged_by_function && options.transparent == Transparent::by_alpha)
             not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include "shim/preload/eye_space.h"
+#include "shim/preload/hidden_faces.h"
 #include "shim/preload/scene_table.h"
 
 namespace glcast::preload {
@@ -45,12 +46,16 @@ class GroupFilter final : public DrawGate {
         const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
         if (draw.eye_map >= 0 || nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
+        if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
         return true;
     }
     void drawn() override {
+        hidden_faces.leave();
         eye_space.leave();
         if (wanted.stencil) wanted.stencil->end_draw();
     }
+    bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
+    bool fixes_colour() const override { return hidden_faces.entered(); }
 
   private:
     bool wants(const Draw& draw) const {
@@ -63,6 +68,7 @@ class GroupFilter final : public DrawGate {
     const int group;
     const Wanted wanted;
     EyeSpace eye_space{inner};
+    HiddenFaces hidden_faces{inner};
     std::size_t next = 0;
     bool blending = false;
 };

@@ -53,6 +53,8 @@ struct Group {
     long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
     long lines = 0, points = 0;
     bool writes_depth = false; ///< any filled draw
+    long hidden_triangles = 0; ///< filled, drawn into the depth buffer alone
+    std::array<GLfloat, 4> background{}; ///< what the window is cleared to
     /// Of open draws; [1]: of those that mirror.
     std::array<long, 2> open_triangles{};
     /// Draws of faces that show only at a depth which is there already; only at greater depths than are there, where
@@ -64,6 +66,10 @@ struct Group {
     std::optional<glm::dmat4> base_modelview;
     bool base_is_stencilled = false;
 
+    /// Faces that only hide what is behind them, and lines over them.
+    bool is_hidden_line() const {
+        return hidden_triangles > 0 && open_triangles[0] + open_triangles[1] == 0 && outlined + lines + points > 0;
+    }
     /// Drawn in space, not on the screen.
     bool is_spatial() const { return kind != ProjectionKind::flat; }
     bool same_place(const Group& other) const;
@@ -79,6 +85,7 @@ struct Draw {
     bool before_depth = false; ///< nothing of the group had written depth yet
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
+    bool hides = false;        ///< filled, drawn into the depth buffer alone
     bool mirrors = false;      ///< its modelview turns right hands into left ones
     bool textured = false, lit = false;
     bool pinned = false;       ///< the depth range leaves it the far plane alone

@@ -129,9 +129,10 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
-        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST);
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST), colours = writes_colour();
         draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        draw.is_open = draw.writes_depth && !draw.stencilled && colours;
+        draw.hides = draw.writes_depth && !tests_stencil && !colours && draw.kind == Draw::Kind::filled;
         draw.textured = is_textured();
         draw.lit = inner.IsEnabled(GL_LIGHTING);
         draw.pinned = tests && is_pinned(group);
@@ -173,6 +174,7 @@ class Analysis final : public DrawGate {
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
                                              : group.points) += number;
+        if (draw.hides) group.hidden_triangles += number;
         if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
         if (gives_w && hands_over_clip) wonder_about_w();
     }
@@ -242,6 +244,7 @@ class Analysis final : public DrawGate {
         now.framebuffer = framebuffer;
         now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
         now.viewport = viewport;
+        inner.GetFloatv(GL_COLOR_CLEAR_VALUE, now.background.data());
         now.projection = sight.projection;
         now.kind = sight.perspective ? ProjectionKind::perspective
                    : tests_depth     ? ProjectionKind::orthographic

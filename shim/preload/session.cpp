@@ -95,7 +95,7 @@ template <class Work> void guarded(Work&& work) noexcept {
 /// The first context that is current.
 void greet(Session& s, const NativeContext& context) {
     if (speaks_alone()) say("hooked %s in %s", context.system->name(), program_name().c_str());
-    tell("hooked", context.system->name());
+    tell("hooked", std::string(context.system->name()) + " " + program_name());
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");
     if (s.options.signal) tell("waits", "the signal did not come");

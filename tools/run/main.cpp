@@ -202,6 +202,7 @@ int run(const Options& options) {
         return fail(trouble);
     }
     Seen seen;
+    seen.started = std::to_string(program.id());
     std::optional<int> result;
     std::string ending = wait_for_cast(options, program, pipe, signals, seen, [&] {
         if (meshes && !seen.looking) {
@@ -210,7 +211,7 @@ int run(const Options& options) {
         }
         if (!meshes && !result && seen.finished(options.captures)) result = report(options, seen, nullptr, "");
     });
-    if (seen.api.empty()) {
+    if (principal(seen).api.empty()) {
         ending += find_obstacle(program, library);
         if (!options.headless) ending += missing_display();
     }
