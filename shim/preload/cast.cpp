@@ -440,7 +440,7 @@ class Cast {
         if (result.outcome != CastOutcome::captured) return result;
         if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
         if (result.outcome != CastOutcome::captured) return result;
-        tell(window.to_beat ? "recaptured" : "captured", std::to_string(number) + " " + path);
+        tell(window.replaces ? "recaptured" : "captured", std::to_string(number) + " " + path);
         if (!window.name.empty()) result.message += " of " + window.name;
         return result;
     }
