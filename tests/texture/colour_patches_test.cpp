@@ -57,7 +57,9 @@ TEST(ColourPatches, PlainColoursUnderNoiseAreOneEach) {
 
 /// Triangles across a border are of one side or the other.
 TEST(ColourPatches, ABorderOfMixedTrianglesIsAllowed) {
-    Level level = torus_of([](double u, double v) { return u == 0 && v > 0.5 ? 0.5f * (red + blue) : u < 0.5 ? red : blue; });
+    Level level = torus_of([](double u, double v) {
+        return u == 0 && v > 0.5 ? 0.5f * (red + blue) : u < 0.5 ? red : blue;
+    });
     const std::vector<glm::vec3> normals = level.mesh.normals;
     ASSERT_TRUE(take_patch_colours(level));
     EXPECT_EQ(face_colours(level).palette.size(), 2u);
@@ -79,8 +81,10 @@ TEST(ColourPatches, OneColourIsOne) {
 TEST(ColourPatches, GradientsAreNone) {
     for (const float depth : {1.0f, 0.2f, 0.08f}) {
         SCOPED_TRACE(depth);
-        Level level = torus_of([&](double, double v) { return glm::vec3(0.5f + depth * float(std::abs(v - 0.5)) - depth / 4); });
-        const std::vector<glm::vec3> before = level.wedges.empty() ? level.mesh.colours : level.wedges.colours;
+        Level level = torus_of(
+            [&](double, double v) { return glm::vec3(0.5f + depth * float(std::abs(v - 0.5)) - depth / 4); });
+        const std::vector<glm::vec3> before =
+            level.wedges.empty() ? level.mesh.colours : level.wedges.colours;
         EXPECT_FALSE(take_patch_colours(level));
         EXPECT_EQ(level.wedges.empty() ? level.mesh.colours : level.wedges.colours, before);
     }
@@ -89,7 +93,8 @@ TEST(ColourPatches, GradientsAreNone) {
 }
 
 TEST(ColourPatches, TooManyColoursAreNone) {
-    Level level = torus_of([](double u, double) { return glm::vec3(std::fmod(u * 4, 1.0), u * 0.9, std::fmod(u * 16, 1.0)); });
+    Level level = torus_of(
+        [](double u, double) { return glm::vec3(std::fmod(u * 4, 1.0), u * 0.9, std::fmod(u * 16, 1.0)); });
     EXPECT_FALSE(take_patch_colours(level));
     EXPECT_TRUE(face_colours(level).empty());
 }

@@ -1,5 +1,5 @@
-// Wavefront .obj, written: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f; an .mtl
-// where there are a texture or plain colours of faces.
+// Wavefront .obj, written: v with colours behind the position (as MeshLab and Blender write them), vt, vn, f;
+// an .mtl where there are a texture or plain colours of faces.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -26,12 +26,14 @@ Texture palette_of(const FaceColours& colours) {
         for (int x = 0; x < picture.width; ++x) {
             const std::size_t which = std::min(std::size_t(x / swatch), colours.palette.size() - 1);
             for (int c = 0; c < 3; ++c)
-                picture.rgb.push_back(std::uint8_t(std::lround(std::clamp(colours.palette[which][c], 0.0f, 1.0f) * 255)));
+                picture.rgb.push_back(
+                    std::uint8_t(std::lround(std::clamp(colours.palette[which][c], 0.0f, 1.0f) * 255)));
         }
     return palette;
 }
 
-/// A normal map is no bump map: `norm`, which most readers know, and no map_Bump, which some take for heights.
+/// A normal map is no bump map: `norm`, which most readers know, and no map_Bump, which some take for
+/// heights.
 bool write_mtl(FileSet& files, const std::filesystem::path& path, const Texture& texture, bool with_normal) {
     PictureNames names;
     if (!write_pictures(files, path, texture, with_normal, names)) return false;
@@ -51,18 +53,19 @@ void add_vertices(Gather& out, const Mesh& mesh, const std::vector<glm::vec3>& n
         for (int k = 0; k < 3 && with_colours; ++k) out << ' ' << mesh.colours[v][k];
         out << '\n';
     }
-    for (const glm::vec3& n : normals)
-        out << "vn " << n.x << ' ' << n.y << ' ' << n.z << '\n';
+    for (const glm::vec3& n : normals) out << "vn " << n.x << ' ' << n.y << ' ' << n.z << '\n';
 }
 
 } // namespace
 
-/// Positions stay one a vertex: along a seam only texture coordinates differ, at a crease only normals. Plain colours of
-/// faces are a picture, too, with a place for each, and no `Kd`: Blender takes that for linear light, others for display values.
+/// Positions stay one a vertex: along a seam only texture coordinates differ, at a crease only normals. Plain
+/// colours of faces are a picture, too, with a place for each, and no `Kd`: Blender takes that for linear
+/// light, others for display values.
 bool write_obj(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions&) {
     const Mesh& mesh = level.mesh;
     const FaceColours colours = face_colours(level);
-    const bool textured = !level.texture.empty(), plain = !colours.empty(), own = !level.wedges.normals.empty();
+    const bool textured = !level.texture.empty(), plain = !colours.empty(),
+               own = !level.wedges.normals.empty();
     const std::vector<glm::vec3>& normals = own ? level.wedges.normals : mesh.normals;
     Gather out(files.mesh(path));
     out << "# glcast " GLCAST_VERSION "\n";

@@ -15,7 +15,8 @@ std::vector<std::uint32_t> firsts(const Copies& copies) {
     return found;
 }
 
-bool any_differs(const std::vector<glm::vec3>& values, const Copies& copies, const std::vector<std::uint32_t>& first) {
+bool any_differs(const std::vector<glm::vec3>& values, const Copies& copies,
+                 const std::vector<std::uint32_t>& first) {
     for (std::size_t k = 0; k < copies.of.size(); ++k)
         if (values[copies.first + k] != values[first[copies.of[k]]]) return true;
     return false;
@@ -58,7 +59,8 @@ Copies copies_at_end(const Mesh& mesh, std::span<const std::uint32_t> originals)
 
 bool are_copies(const Mesh& mesh, const Copies& copies) {
     if (copies.count == 0 || copies.first + copies.of.size() != mesh.positions.size()) return false;
-    if (std::any_of(copies.of.begin(), copies.of.end(), [&](std::uint32_t v) { return v >= copies.count; })) return false;
+    if (std::any_of(copies.of.begin(), copies.of.end(), [&](std::uint32_t v) { return v >= copies.count; }))
+        return false;
     const std::vector<std::uint32_t> first = firsts(copies);
     if (std::find(first.begin(), first.end(), none) != first.end()) return false;
     for (std::size_t k = 0; k < copies.of.size(); ++k)

@@ -1,4 +1,5 @@
-// 3D Manufacturing Format (.3mf), read by lib3mf in a child process: what is to be built, with its transforms, as one mesh.
+// 3D Manufacturing Format (.3mf), read by lib3mf in a child process: what is to be built, with its
+// transforms, as one mesh.
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -16,9 +17,9 @@ using namespace NMR;
 using Handle = ThreeMfHandle;
 
 constexpr const char* damaged = "lib3mf cannot read it";
-constexpr int deepest = 64;                       ///< components of components
+constexpr int deepest = 64;                              ///< components of components
 constexpr std::size_t always = 100'000, for_a_byte = 32; ///< vertices and triangles that a file may make
-constexpr glm::vec3 no_colour(0.8f);              ///< of what has none beside others that have
+constexpr glm::vec3 no_colour(0.8f);                     ///< of what has none beside others that have
 
 void good(LIB3MFRESULT result) { require(result, damaged); }
 
@@ -37,7 +38,8 @@ class Model {
         good(lib3mf_createmodel(&model.of));
         Handle reader;
         good(lib3mf_model_queryreader(model.of, "3mf", &reader.of));
-        auto* const first = reinterpret_cast<BYTE*>(const_cast<char*>(bytes.data())); // nothing writes through it
+        auto* const first =
+            reinterpret_cast<BYTE*>(const_cast<char*>(bytes.data())); // nothing writes through it
         good(lib3mf_reader_readfrombuffer(reader.of, first, bytes.size()));
     }
 
@@ -58,7 +60,8 @@ class Model {
 
   private:
     void take(std::size_t count) {
-        if (count > left) refuse("makes more vertices and triangles of its bytes than is read: 100,000 and 32 a byte");
+        if (count > left)
+            refuse("makes more vertices and triangles of its bytes than is read: 100,000 and 32 a byte");
         left -= count;
     }
 
@@ -135,7 +138,8 @@ class Model {
         return colour_of(colour.m_Red, colour.m_Green, colour.m_Blue);
     }
 
-    std::array<glm::vec3, 3> triangle_colours(PLib3MFBase* properties, DWORD t, const std::optional<glm::vec3>& otherwise) {
+    std::array<glm::vec3, 3> triangle_colours(PLib3MFBase* properties, DWORD t,
+                                              const std::optional<glm::vec3>& otherwise) {
         std::array<glm::vec3, 3> colours;
         colours.fill(otherwise.value_or(no_colour));
         eModelPropertyType kind = MODELPROPERTYTYPE_NONE;
@@ -148,7 +152,8 @@ class Model {
             MODELMESH_TRIANGLECOLOR_SRGB found{};
             good(lib3mf_propertyhandler_getcolor(properties, t, &found));
             for (std::size_t k = 0; k < 3; ++k)
-                colours[k] = colour_of(found.m_Colors[k].m_Red, found.m_Colors[k].m_Green, found.m_Colors[k].m_Blue);
+                colours[k] =
+                    colour_of(found.m_Colors[k].m_Red, found.m_Colors[k].m_Green, found.m_Colors[k].m_Blue);
             coloured = true;
         }
         return colours;

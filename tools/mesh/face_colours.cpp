@@ -8,7 +8,8 @@ namespace {
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// Vertices or wedges of a part: those of the whole get numbers in the order of the whole.
-std::vector<std::uint32_t> taken(const std::vector<Triangle>& triangles, const FaceColours& colours, std::uint32_t which) {
+std::vector<std::uint32_t> taken(const std::vector<Triangle>& triangles, const FaceColours& colours,
+                                 std::uint32_t which) {
     std::vector<std::uint32_t> found;
     for (std::size_t t = 0; t < triangles.size(); ++t)
         if (colours.face[t] == which) found.insert(found.end(), triangles[t].begin(), triangles[t].end());
@@ -17,14 +18,15 @@ std::vector<std::uint32_t> taken(const std::vector<Triangle>& triangles, const F
     return found;
 }
 
-std::vector<Triangle> renumbered(const std::vector<Triangle>& triangles, const FaceColours& colours, std::uint32_t which,
-                                 const std::vector<std::uint32_t>& taken) {
+std::vector<Triangle> renumbered(const std::vector<Triangle>& triangles, const FaceColours& colours,
+                                 std::uint32_t which, const std::vector<std::uint32_t>& taken) {
     std::vector<Triangle> out;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (colours.face[t] != which) continue;
         Triangle& to = out.emplace_back();
         for (int k = 0; k < 3; ++k)
-            to[k] = std::uint32_t(std::lower_bound(taken.begin(), taken.end(), triangles[t][k]) - taken.begin());
+            to[k] =
+                std::uint32_t(std::lower_bound(taken.begin(), taken.end(), triangles[t][k]) - taken.begin());
     }
     return out;
 }

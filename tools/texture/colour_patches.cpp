@@ -11,9 +11,9 @@
 namespace glcast {
 namespace {
 
-constexpr float same = 2.5f / 255;    // of a channel: a plain colour, as captured in bytes and fitted
-constexpr float other = 16.0f / 255;  // two colours nearer than this, and not the same, are a gradient
-constexpr double on_borders = 0.08;   // of the area may be of no plain colour: triangles across borders
+constexpr float same = 2.5f / 255;   // of a channel: a plain colour, as captured in bytes and fitted
+constexpr float other = 16.0f / 255; // two colours nearer than this, and not the same, are a gradient
+constexpr double on_borders = 0.08;  // of the area may be of no plain colour: triangles across borders
 
 float difference(const glm::vec3& a, const glm::vec3& b) {
     const glm::vec3 d = glm::abs(a - b);
@@ -32,9 +32,11 @@ std::vector<Face> faces_of(const Level& level) {
     for (std::size_t t = 0; t < faces.size(); ++t) {
         const std::array<glm::vec3, 3> c = corner_colours(mesh, level.wedges, t);
         const glm::dvec3& a = mesh.positions[mesh.triangles[t][0]];
-        const glm::dvec3 u = mesh.positions[mesh.triangles[t][1]] - a, v = mesh.positions[mesh.triangles[t][2]] - a;
+        const glm::dvec3 u = mesh.positions[mesh.triangles[t][1]] - a,
+                         v = mesh.positions[mesh.triangles[t][2]] - a;
         faces[t] = {(c[0] + c[1] + c[2]) / 3.0f, glm::length(glm::cross(u, v)) / 2,
-                    std::max({difference(c[0], c[1]), difference(c[1], c[2]), difference(c[2], c[0])}) <= 2 * same};
+                    std::max({difference(c[0], c[1]), difference(c[1], c[2]), difference(c[2], c[0])}) <=
+                        2 * same};
     }
     return faces;
 }
@@ -50,7 +52,8 @@ struct Patch {
 std::vector<Patch> patches_of(const std::vector<Face>& faces, double& of_none) {
     std::vector<std::uint32_t> order(faces.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return faces[a].area > faces[b].area; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return faces[a].area > faces[b].area; });
     std::vector<Patch> patches;
     of_none = 0;
     for (const std::uint32_t t : order) {
@@ -69,7 +72,8 @@ std::vector<Patch> patches_of(const std::vector<Face>& faces, double& of_none) {
 
 /// Those that are more than triangles across borders.
 std::vector<glm::vec3> plain_colours(std::vector<Patch> patches, double of_none, double area) {
-    std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) { return a.area > b.area; });
+    std::stable_sort(patches.begin(), patches.end(),
+                     [](const Patch& a, const Patch& b) { return a.area > b.area; });
     std::vector<glm::vec3> palette;
     for (const Patch& patch : patches) {
         const double left = on_borders * area - of_none;
@@ -98,9 +102,10 @@ void take_largest_colours(Level& level, const std::vector<Face>& faces, const Co
         }
     for (std::size_t v = 0; v < sides.size(); ++v)
         if (!sides[v].empty())
-            level.mesh.colours[v] = std::max_element(sides[v].begin(), sides[v].end(), [](const auto& a, const auto& b) {
-                                        return a.second < b.second;
-                                    })->first;
+            level.mesh.colours[v] =
+                std::max_element(sides[v].begin(), sides[v].end(), [](const auto& a, const auto& b) {
+                    return a.second < b.second;
+                })->first;
 }
 
 } // namespace
@@ -115,11 +120,13 @@ bool take_patch_colours(Level& level) {
     if (palette.empty()) return false;
     CornerValues normals, colours;
     for (std::size_t t = 0; t < faces.size(); ++t) {
-        const auto nearest = std::min_element(palette.begin(), palette.end(), [&](const glm::vec3& a, const glm::vec3& b) {
-            return glm::distance(a, faces[t].colour) < glm::distance(b, faces[t].colour);
-        });
+        const auto nearest =
+            std::min_element(palette.begin(), palette.end(), [&](const glm::vec3& a, const glm::vec3& b) {
+                return glm::distance(a, faces[t].colour) < glm::distance(b, faces[t].colour);
+            });
         colours.push_back({*nearest, *nearest, *nearest});
-        if (has_normals(level.mesh, level.wedges)) normals.push_back(corner_normals(level.mesh, level.wedges, t));
+        if (has_normals(level.mesh, level.wedges))
+            normals.push_back(corner_normals(level.mesh, level.wedges, t));
     }
     std::vector<glm::vec3> own = level.mesh.normals; // of the largest wedges
     level.wedges = take_corner_values(level.mesh, normals, colours);
