@@ -108,7 +108,7 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     {
         const std::lock_guard lock(s.mutex);
         if (s.holding && !s.read_is_held && s.windows.is_done(drawable)) return std::nullopt;
-        alone = s.windows.count() == 1;
+        alone = s.windows.count() <= 1;
     }
     const bool chooses = !alone && chooses_a_window(s.options);
     if (chooses || s.options.list || !wanted.empty()) look_at_windows(s, context);
