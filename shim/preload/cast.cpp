@@ -127,6 +127,7 @@ CaptureInfo make_info(long number, const Options& options, const EngineOptions& 
     info.renderer = renderer ? reinterpret_cast<const char*>(renderer) : "";
     info.normals = options.normals == NormalMethod::six_lights ? "six" : "signed";
     info.glcast_version = GLCAST_VERSION;
+    info.both_sides = engine.both_sides;
     return info;
 }
 
@@ -333,6 +334,11 @@ class Cast {
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
         engine.stencil = follow_stencil(candidate);
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (candidate.in_part[part] < 0) continue;
+            const Sides sides = sides_of(scenes[part], candidate.in_part[part]);
+            engine.both_sides |= sides.apart, engine.culls |= sides.culled;
+        }
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -86,6 +87,20 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     if (draw.backdrop) return backdrops;
     if (!of.writes_depth || draw.writes_depth) return true;
     return draw.before_depth ? backdrops : draw.tests_depth;
+}
+
+Sides sides_of(const Scene& scene, int group) {
+    Sides sides;
+    std::set<long> by_culled[2]; // triangles of draws without fronts, without backs
+    for (const Draw& draw : scene.draws) {
+        if (draw.group != group || !is_solid(draw, scene.groups[group], false)) continue;
+        sides.apart |= draw.two_colours;
+        if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
+            by_culled[draw.culled == GL_BACK].insert(draw.triangles);
+    }
+    for (const long triangles : by_culled[0]) sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
+    sides.apart |= sides.culled;
+    return sides;
 }
 
 bool Group::same_place(const Group& other) const {

@@ -92,6 +92,8 @@ struct Draw {
     bool backdrop = false;     ///< as backdrop_search.h has found
     long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    bool two_colours = false;  ///< its fronts and its backs are lit with materials of their own
+    GLenum culled = GL_NONE;   ///< its faces that are not drawn
     StencilUse stencil;        ///< as planned (stencil_plan.h)
     bool is_outline = false;   ///< around the picture of something (stencil_plan.h)
     bool is_decal = false;     ///< on a surface, without a depth test
@@ -138,6 +140,13 @@ struct Wanted {
 bool is_reflection(const Draw& draw, const Group& group);
 /// Is it one of the draws of its group that are cast? `backdrops`: these too.
 bool is_solid(const Draw& draw, const Group& of, bool backdrops);
+
+/// How the solid draws of a group tell fronts from backs.
+struct Sides {
+    bool apart = false;  ///< they look different
+    bool culled = false; ///< since fronts and backs of the same are drawn one after the other
+};
+Sides sides_of(const Scene& scene, int group);
 
 /// Replays the frame, but of its draws only some of one group.
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
