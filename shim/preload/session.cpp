@@ -227,7 +227,7 @@ namespace {
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
-    s.has_shown = true;
+    if (!s.has_shown.exchange(true) && s.offscreen) tell("offscreen", ""); // Qt has a pbuffer beside its windows
     forget_front();
     s.triggers.look_for_signals();
     update_unwanted(s);
@@ -280,7 +280,7 @@ void note_offscreen(Session& s) {
                               : thread_state.is_pixmap     ? "memory or a pixmap"
                               : thread_state.drawable == 0 ? "framebuffer objects alone"
                                                            : nullptr;
-    if (where && !s.offscreen.exchange(where)) tell("offscreen", where);
+    if (where && !s.has_shown && !s.offscreen.exchange(where)) tell("offscreen", where);
 }
 
 bool always() { return true; }
