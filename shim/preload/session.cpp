@@ -16,6 +16,10 @@ namespace {
 /// Parts kept for a swap to come; more are only seen where a program draws and never shows it.
 constexpr std::size_t most_parts = 32;
 
+/// Frames that are recorded before their time: so many, and after them those of a program that draws so seldom.
+constexpr long most_kept_early = 30;
+constexpr std::chrono::milliseconds seldom{100};
+
 std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
@@ -39,6 +43,20 @@ Session* make_session() {
 
 } // namespace
 
+constinit thread_local ThreadState thread_state{nullptr, 0, false, false, false};
+
+bool is_late_enough(const Session& s) {
+    return std::chrono::duration<double>(Clock::now() - s.start.load()).count() >= s.options.after_seconds;
+}
+
+void give_up(const char* why) noexcept {
+    Session* s = session_if_any();
+    if (!s) return;
+    s->triggers.give_up();
+    update_unwanted(*s);
+    if (why && !s->settled.exchange(true)) tell("failed", why);
+}
+
 /// Never destroyed: other threads may draw while the process ends.
 Session& session() {
     static Session* const made = [] {
@@ -59,38 +77,6 @@ void update_unwanted(Session& s) {
 }
 
 namespace {
-
-/// What is current on this thread. Trivial, so that it needs no destructor in foreign threads.
-struct ThreadState {
-    NativeContext* context;
-    std::uintptr_t drawable;
-    bool known; ///< to the recorder
-    bool is_pbuffer, is_pixmap; ///< the drawable
-};
-constinit thread_local ThreadState thread_state{nullptr, 0, false, false, false};
-
-void give_up(Session& s) {
-    s.triggers.give_up();
-    update_unwanted(s);
-}
-
-/// The one place where exceptions end: the shim gives up, the program goes on.
-template <class Work> void guarded(Work&& work) noexcept {
-    try {
-        Session& s = session();
-        if (!s.options.armed || !s.is_ours()) return;
-        const HostThread program;
-        work(s);
-    } catch (const std::exception& error) {
-        say_once("gave up: %s", error.what());
-        if (Session* s = existing) {
-            give_up(*s);
-            if (!s->settled.exchange(true)) tell("failed", error.what());
-        }
-    } catch (...) {
-        if (Session* s = existing) give_up(*s);
-    }
-}
 
 /// The first context that is current.
 void greet(Session& s, const NativeContext& context) {
@@ -137,13 +123,16 @@ void close_recording(Session& s, NativeContext& context) {
     if (!context.recording) return;
     context.recording = false;
     std::string why;
+    auto draws = static_cast<long>(record::draws_so_far(*context.shadow));
     auto frame = record::end_frame(*context.shadow, &why);
     if (!s.triggers.waiting() || context.destroyed) return;
     if (!frame) return refuse(s, why);
     const auto owner = s.contexts.find(context.handle);
     if (owner == s.contexts.end()) return;
     if (s.parts.size() == most_parts) s.parts.erase(s.parts.begin());
-    s.parts.push_back({owner->second, context.recorded_drawable, std::move(frame)});
+    for (const auto& [what, times] : record::not_understood(*frame))
+        if (what.starts_with("a draw under")) draws -= times;
+    s.parts.push_back({owner->second, context.recorded_drawable, std::move(frame), draws});
 }
 
 /// A drawable that is never swapped (a pbuffer, or a window under a context that draws to framebuffer objects)
@@ -157,19 +146,32 @@ Ended frames_of(const Session& s, const NativeContext& context, std::uintptr_t d
     return most;
 }
 
-bool is_late_enough(const Session& s) {
-    return std::chrono::duration<double>(Clock::now() - s.start.load()).count() >= s.options.after_seconds;
+/// Whether to record before the time has come: the first frames, then those of a program that draws seldom.
+bool keeps_frames(Session& s) {
+    if (s.frames < most_kept_early) return true;
+    const std::lock_guard lock(s.mutex);
+    return s.last_interval >= seldom;
+}
+
+/// Of the frame that ended in `window` before its time.
+void keep(Session& s, std::vector<FramePart> parts, FrameKey window, long number) {
+    const auto draws = [](const FramePart& part) { return part.draws > 0; };
+    if (std::none_of(parts.begin(), parts.end(), draws)) return;
+    const std::lock_guard lock(s.mutex);
+    s.kept = {std::move(parts), window, number};
 }
 
 bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
     if (!s.triggers.waiting() || !context.shadow) return false;
-    if (!is_late_enough(s)) return false;
+    if (!is_late_enough(s) && !keeps_frames(s)) return false;
     const std::lock_guard lock(s.mutex);
     if (context.destroyed) return false;
     if (!s.has_shown) return true; // what a read may end, its number is not known before
     const Ended ended = frames_of(s, context, drawable);
     return ended.frames + 1 >= std::max(ended.next_wish, s.options.frame);
 }
+
+} // namespace
 
 /// Record what follows, if it may be the frame that is waited for.
 void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable) {
@@ -219,11 +221,13 @@ void keep_of_this_display(std::vector<FramePart>& parts) {
     std::erase_if(parts, [](const FramePart& part) { return part.context->display != thread_state.context->display; });
 }
 
+namespace {
+
 /// Count the frame that ends here, and cast it if it was recorded. `context` is null where none of desktop GL
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
-    s.has_shown = true;
+    if (!s.has_shown.exchange(true) && s.offscreen) tell("offscreen", ""); // Qt has a pbuffer beside its windows
     forget_front();
     s.triggers.look_for_signals();
     update_unwanted(s);
@@ -233,10 +237,13 @@ void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
         const std::lock_guard lock(s.mutex);
         s.swapped.insert(drawable);
         number = ++s.ended[window].frames;
+        const auto now = Clock::now();
+        s.last_interval = now - std::exchange(s.last_end, now);
     }
     if (!s.triggers.waiting()) return;
     auto parts = take_parts(s, context, drawable);
     keep_of_this_display(parts);
+    if (!is_late_enough(s)) return keep(s, std::move(parts), window, number);
     if (number < s.options.frame) parts.clear();
     const bool expected = context && number >= s.options.frame && is_late_enough(s);
     if (!parts.empty() || expected)
@@ -260,74 +267,11 @@ void end_late_part(Session& s, NativeContext& context) {
         for (const auto& [key, ended] : s.ended)
             if (ended.frames > number) window = key, number = ended.frames;
     }
-    if (!parts.empty()) cast_parts(s, std::move(parts), &context, window, number, FrameEnd::shown);
+    if (!is_late_enough(s))
+        keep(s, std::move(parts), window, number);
+    else if (!parts.empty())
+        cast_parts(s, std::move(parts), &context, window, number, FrameEnd::shown);
     start_recording(s, context, thread_state.drawable);
-}
-
-/// What the program has drawn since its last frame ended, with the recordings going on: a swap may follow, and end a
-/// frame with all of it.
-std::vector<FramePart> lend_parts(Session& s, const NativeContext& current) {
-    const std::lock_guard lock(s.mutex);
-    std::vector<FramePart> lent;
-    for (const FramePart& part : s.parts)
-        if (!part.context->destroyed) lent.push_back(part);
-    for (const auto& [handle, context] : s.contexts) {
-        if (!context->recording || (context.get() != &current && context->threads > 0)) continue;
-        if (auto frame = record::frame_so_far(*context->shadow))
-            lent.push_back({context, context->recorded_drawable, std::move(frame)});
-    }
-    return lent;
-}
-
-/// Grows with each draw that is recorded, of all contexts whose drawing a read by `current` may show.
-std::uint64_t drawn_so_far(Session& s, const NativeContext& current) {
-    const std::lock_guard lock(s.mutex);
-    std::uint64_t draws = s.parts.size();
-    for (const auto& [handle, context] : s.contexts)
-        if (context.get() == &current || (context->recording && context->threads == 0))
-            draws += record::draws_so_far(*context->shadow);
-    return draws;
-}
-
-/// Of the smallest picture that anybody reads to see it.
-constexpr long picture_pixels = 1024;
-
-/// True once for what was drawn: where a picture of it has been read, be it row by row.
-bool has_read_a_picture(Session& s, NativeContext& context, long pixels) {
-    const std::uint64_t drawn = drawn_so_far(s, context);
-    if (drawn == 0) return false;
-    if (drawn != context.reads.drawn) context.reads = {drawn, 0};
-    const long before = std::exchange(context.reads.pixels, context.reads.pixels + pixels);
-    return before < picture_pixels && context.reads.pixels >= picture_pixels;
-}
-
-/// The first frame is looked at while its recording goes on, for programs that read before their first swap (to find
-/// what lies where, to make small pictures) and show it all then. Who has read twice is taken not to swap at all.
-void picture_is_read(Session& s, NativeContext& context, long pixels) {
-    if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
-    if (!s.triggers.waiting() || s.holding || record::busy(*context.shadow)) return;
-    const std::uintptr_t drawable = thread_state.drawable;
-    if (!context.recording) return start_recording(s, context, drawable);
-    if (!has_read_a_picture(s, context, pixels)) return;
-    ++s.frames;
-    const FrameKey window(&context, drawable);
-    if (s.pictures_read == 1) count_first_read(s);
-    if (!s.triggers.waiting()) return;
-    long number = 0, wish = 0;
-    bool is_first = false;
-    {
-        const std::lock_guard lock(s.mutex);
-        is_first = s.pictures_read++ == 0;
-        if (is_first) s.first_read = window;
-        Ended& ended = s.ended[window];
-        number = ended.frames + 1;
-        if (!is_first) ++ended.frames;
-        wish = std::max(ended.next_wish, s.options.frame);
-    }
-    auto parts = is_first ? lend_parts(s, context) : take_parts(s, &context, drawable);
-    keep_of_this_display(parts);
-    if (number >= wish) cast_parts(s, std::move(parts), &context, window, number, is_first ? FrameEnd::first_read : FrameEnd::read);
-    start_recording(s, context, drawable);
 }
 
 /// Told of a program that ends no frame.
@@ -336,10 +280,12 @@ void note_offscreen(Session& s) {
                               : thread_state.is_pixmap     ? "memory or a pixmap"
                               : thread_state.drawable == 0 ? "framebuffer objects alone"
                                                            : nullptr;
-    if (where && !s.offscreen.exchange(where)) tell("offscreen", where);
+    if (where && !s.has_shown && !s.offscreen.exchange(where)) tell("offscreen", where);
 }
 
 bool always() { return true; }
+
+} // namespace
 
 /// A frame's end that is no swap; the next one begins right behind it.
 void frame_ends_here(Session& s, bool (*really)()) {
@@ -354,8 +300,6 @@ void frame_ends_here(Session& s, bool (*really)()) {
         end_late_part(s, *context);
     }
 }
-
-} // namespace
 
 Session* session_if_any() { return existing.load(std::memory_order_relaxed); }
 
@@ -486,31 +430,6 @@ void after_swap(std::uintptr_t drawable) noexcept {
 
 void flushed() noexcept {
     guarded([](Session& s) { frame_ends_here(s, s.options.read_ends ? always : draws_to_front); });
-}
-
-void before_leaving() noexcept {
-    if (!thread_state.is_pixmap || !thread_state.context || !thread_state.context->recording) return;
-    guarded([](Session& s) { frame_ends_here(s, draws_to_front); });
-}
-
-void offscreen_made(std::uintptr_t drawable, bool is_pbuffer) noexcept {
-    if (!drawable) return;
-    guarded([&](Session& s) {
-        const std::lock_guard lock(s.mutex);
-        (is_pbuffer ? s.pbuffers : s.pixmaps).insert(drawable);
-    });
-}
-
-bool reads_may_end_frames() noexcept {
-    const Session* s = existing.load(std::memory_order_relaxed);
-    if (!s || !thread_state.context || !thread_state.context->shadow) return false;
-    return s->options.read_ends || (!s->has_shown.load(std::memory_order_relaxed) && s->triggers.waiting());
-}
-
-void pixels_are_read(long pixels) noexcept {
-    guarded([&](Session& s) {
-        s.options.read_ends ? frame_ends_here(s, always) : picture_is_read(s, *thread_state.context, pixels);
-    });
 }
 
 } // namespace glcast::preload

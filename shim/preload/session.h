@@ -44,6 +44,7 @@ struct FramePart {
     std::shared_ptr<NativeContext> context;
     std::uintptr_t drawable = 0;
     std::shared_ptr<const record::Frame> frame;
+    long draws = 0; ///< those that can be replayed
 };
 
 /// Must GL be shadowed at all? False for good when nothing can be asked of this process.

@@ -108,7 +108,7 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     {
         const std::lock_guard lock(s.mutex);
         if (s.holding && !s.read_is_held && s.windows.is_done(drawable)) return std::nullopt;
-        alone = s.windows.count() == 1;
+        alone = s.windows.count() <= 1;
     }
     const bool chooses = !alone && chooses_a_window(s.options);
     if (chooses || s.options.list || !wanted.empty()) look_at_windows(s, context);
@@ -268,6 +268,13 @@ bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext
     return !nothing;
 }
 
+/// What stands in the window, where nothing new with a solid came.
+Kept take_kept(Session& s) {
+    const std::lock_guard lock(s.mutex);
+    Kept kept = std::exchange(s.kept, {});
+    return s.triggers.waiting() ? kept : Kept{};
+}
+
 } // namespace
 
 void count_first_read(Session& s) {
@@ -284,11 +291,19 @@ void count_first_read(Session& s) {
 
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number, FrameEnd end) {
-    if (parts.empty()) return frame_without_cast(s, {});
     bool has_drawn = false;
-    on_own_stack(HeldSignals::handled, [&] { has_drawn = cast_or_pass(s, parts, current, window, number, end); });
-    parts.clear();
+    const auto draw = [&] {
+        on_own_stack(HeldSignals::handled,
+                     [&] { has_drawn = cast_or_pass(s, parts, current, window, number, end); });
+        parts.clear();
+    };
+    parts.empty() ? frame_without_cast(s, {}) : draw();
+    if (Kept kept = has_drawn || s.holding ? Kept{} : take_kept(s); !kept.parts.empty()) {
+        parts = std::move(kept.parts), window = kept.window, number = kept.number;
+        draw();
+    }
     if (!has_drawn) return;
+    take_kept(s);
     record::give_back_spare_memory();
     malloc_trim(0); // images, and the driver's textures, would stay in the program's heap
 }

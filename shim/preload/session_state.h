@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "shim/preload/census.h"
+#include "shim/preload/host_thread.h"
 #include "shim/preload/session.h"
+#include "shim/preload/status.h"
 #include "shim/preload/triggers.h"
 #include "shim/preload/windows.h"
 
@@ -26,6 +28,13 @@ struct Ended {
 /// Frames are counted for each window of each context.
 using FrameKey = std::pair<const void*, std::uintptr_t>;
 
+/// The last whole frame with draws that can be replayed, of a program that need not draw again once its time has come.
+struct Kept {
+    std::vector<FramePart> parts;
+    FrameKey window;
+    long number = 0;
+};
+
 /// All that changes in the life of a process, but for what belongs to a thread.
 struct Session {
     const Options options = read_options();
@@ -36,6 +45,9 @@ struct Session {
     std::map<FrameKey, Ended> ended;
     std::set<std::uintptr_t> swapped; ///< drawables
     std::vector<FramePart> parts;     ///< of the frame that has not ended yet
+    Kept kept;
+    Clock::time_point last_end{};
+    Clock::duration last_interval{}; ///< between the ends of two frames
     std::set<std::uintptr_t> pbuffers, pixmaps;
     long pictures_read = 0; ///< frames that a read has ended
     FrameKey first_read;    ///< where the first of these was, which counts when the second comes
@@ -63,6 +75,45 @@ struct Session {
 Session& session();
 /// Null before anything of GL was seen.
 Session* session_if_any();
+
+/// What is current on this thread. Trivial, so that it needs no destructor in foreign threads.
+struct ThreadState {
+    NativeContext* context;
+    std::uintptr_t drawable;
+    bool known;                 ///< to the recorder
+    bool is_pbuffer, is_pixmap; ///< the drawable
+};
+extern thread_local ThreadState thread_state [[gnu::tls_model("initial-exec")]];
+
+/// For good: nothing will be captured. `why`, where not null, is told once.
+void give_up(const char* why) noexcept;
+
+/// The one place where exceptions end: the shim gives up, the program goes on.
+template <class Work> void guarded(Work&& work) noexcept {
+    try {
+        Session& s = session();
+        if (!s.options.armed || !s.is_ours()) return;
+        const HostThread program;
+        work(s);
+    } catch (const std::exception& error) {
+        say_once("gave up: %s", error.what());
+        give_up(error.what());
+    } catch (...) {
+        give_up(nullptr);
+    }
+}
+
+/// --after SECONDS are over.
+bool is_late_enough(const Session& s);
+/// Record what follows, if it may be the frame that is waited for.
+void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable);
+/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
+/// that are never swapped. `context`, where not null, is current on this thread.
+std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintptr_t drawable);
+/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
+void keep_of_this_display(std::vector<FramePart>& parts);
+/// A frame's end that is no swap; the next one begins right behind it.
+void frame_ends_here(Session& s, bool (*really)());
 
 /// Whether frames are recorded follows from the triggers.
 void update_unwanted(Session& s);

@@ -118,6 +118,9 @@ TEST(Reads, of_several_pictures_can_all_be_cast) {
             << frame;
 }
 
+// The time has come, and nothing new is drawn.
+TEST(Rest, is_cast_as_it_was_drawn_last) { expect_the_body({READS, "rest", "1"}, {{"GLCAST_AFTER", "0.5"}}); }
+
 TEST(Reads, that_never_come_lead_to_a_reason) {
     const ReadRun run = cast({READS, "pbuffer-unread"});
     EXPECT_FALSE(run.capture);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "window.h"
 
@@ -185,6 +186,17 @@ static void preview_and_swap(void) {
     draw();
     glXSwapBuffers(display, window);
 }
+/* Draws the body in the first frames, and then nothing more; shows that until it is cast, for ten seconds at most. */
+static void draw_and_rest(void) {
+    const char* out = getenv("GLCAST_OUT");
+    draw();
+    glXSwapBuffers(display, window);
+    for (int i = 0; out && access(out, F_OK) != 0 && i < 1000; ++i) {
+        usleep(10000);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glXSwapBuffers(display, window);
+    }
+}
 static void draw_only(void) { draw(); }
 
 static const struct Way {
@@ -205,6 +217,7 @@ static const struct Way {
     {"pixmap-leave", open_pixmap, draw_and_leave},
     {"empty-first", open_pbuffer, clear_and_read},
     {"two-pictures", open_pbuffer, two_pictures},
+    {"rest", open_window, draw_and_rest},
     {"pick-swap", open_window, pick_and_swap},
     {"read-swap", open_window, read_and_swap},
     {"preview-swap", open_window, preview_and_swap},
