@@ -22,8 +22,8 @@
 namespace glcast {
 namespace {
 
-constexpr std::size_t points_a_side = 200'000;
-constexpr std::size_t glance_one_of = 20;
+constexpr std::size_t points_a_side = 100'000;
+constexpr std::size_t glance_one_of = 10;
 constexpr std::size_t piece = 2048; ///< points that follow one another: neighbours, mostly
 
 struct Probe {

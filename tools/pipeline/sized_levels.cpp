@@ -12,9 +12,10 @@ constexpr double pixel_share = 1.0 / 8;            // of a pixel: the error of a
 constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
 constexpr double first_count = 65'536;             // triangles; sketches go down from here
 constexpr double sketch_step = 4;                  // of counts
-constexpr double sketch_close_enough = 1.4;        // of counts between which a limit lies
-constexpr double fit_gains = 1.1;                  // the 99.9 % error of what is not fitted, of what is
+constexpr double sketch_close_enough = 2;          // of counts between which a limit lies
 constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
+// The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
+constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
@@ -36,7 +37,7 @@ double LevelSearch::estimate(std::size_t count) {
     }
     simplification.collapse_to(count);
     Level level;
-    level.mesh = simplification.level(count, false);
+    level.mesh = simplification.level(count, FitWork::none);
     const double error = meter.glance(level);
     const double made = double(level.mesh.triangles.size());
     const auto at = std::lower_bound(sketches.begin(), sketches.end(), made,
@@ -45,7 +46,7 @@ double LevelSearch::estimate(std::size_t count) {
     return error;
 }
 
-/// Until each limit lies between two counts that are near each other.
+/// Until each limit, as it is before a fit, lies between two counts that are near each other.
 void LevelSearch::sketch(const std::vector<double>& limits) {
     double count = std::min(first_count, double(all));
     while (estimate(std::size_t(count)) > limits.front() && count < double(all))
@@ -67,7 +68,13 @@ void LevelSearch::sketch(const std::vector<double>& limits) {
         }
 }
 
-/// The count at which the sketched error is the limit.
+/// Where a fitted level is likely to be within.
+double LevelSearch::first_try(double limit) const {
+    const double coarse = sketched(limit * coarse_gains);
+    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit * fine_gains));
+}
+
+/// The count at which the sketched error is the limit: it falls as a power of the count.
 double LevelSearch::sketched(double limit) const {
     const auto fine =
         std::find_if(sketches.begin(), sketches.end(), [&](const Estimate& e) { return e.error <= limit; });
@@ -79,7 +86,9 @@ double LevelSearch::sketched(double limit) const {
     return low.count * std::pow(high.count / low.count, std::clamp(share, 0.0, 1.0));
 }
 
-SizedLevel LevelSearch::make(std::size_t count) const { return {finish(simplification.level(count)), count}; }
+SizedLevel LevelSearch::make(std::size_t count) const {
+    return {shape(simplification.level(count, FitWork::little)), count};
+}
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
 /// within that one more try is worth it.
@@ -87,7 +96,7 @@ SizedLevel LevelSearch::search(double limit) const {
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
-    for (double count = std::max(sketched(limit * fit_gains), least);;) {
+    for (double count = std::max(first_try(limit), least);;) {
         SizedLevel tried = make(std::size_t(std::min(count, double(all))));
         if (tried.level.mesh.triangles.size() >= all)
             return found.count ? std::move(found) : std::move(tried);
@@ -107,9 +116,7 @@ SizedLevel LevelSearch::search(double limit) const {
 
 std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<double>& limits) {
     if (limits.empty()) return {};
-    std::vector<double> sought;
-    for (const double limit : limits) sought.push_back(limit * fit_gains);
-    sketch(sought);
+    sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
     tbb::parallel_for(std::size_t(0), limits.size(), [&](std::size_t k) { levels[k] = search(limits[k]); });
     return levels;

@@ -16,8 +16,8 @@ std::vector<double> default_pixels(int n);
 /// `pixels` wide: an eighth of a pixel, in samples. 2^k / 4 at n / 2^(k+1) pixels.
 double error_within(double pixels, int n);
 
-/// A level as a file will have it, but for its texture: made of what a count leaves.
-using FinishLevel = std::function<Level(Mesh&& simplified)>;
+/// A level as a file will have it, but for its normals, colours and texture: made of what a count leaves.
+using ShapeLevel = std::function<Level(Mesh&& simplified)>;
 
 struct SizedLevel {
     Level level;
@@ -28,9 +28,9 @@ struct SizedLevel {
 /// fitted, as that costs little; what they tell gives the counts that are tried.
 class LevelSearch {
   public:
-    /// All must outlive it. `finish` may run on several threads at once.
-    LevelSearch(Simplification& simplification, const LevelMeter& meter, std::size_t all, FinishLevel finish)
-        : simplification(simplification), meter(meter), all(all), finish(std::move(finish)) {}
+    /// All must outlive it. `shape` may run on several threads at once.
+    LevelSearch(Simplification& simplification, const LevelMeter& meter, std::size_t all, ShapeLevel shape)
+        : simplification(simplification), meter(meter), all(all), shape(std::move(shape)) {}
 
     /// For each limit (model units, ascending) the coarsest level, to some 15 % of its triangles, 99.9 % of
     /// which are within it, by estimate (LevelMeter::glance). The full surface where none is.
@@ -46,13 +46,14 @@ class LevelSearch {
     double estimate(std::size_t count);
     void sketch(const std::vector<double>& limits);
     double sketched(double limit) const;
+    double first_try(double limit) const;
     SizedLevel search(double limit) const;
     SizedLevel make(std::size_t count) const;
 
     Simplification& simplification;
     const LevelMeter& meter;
     const std::size_t all;
-    const FinishLevel finish;
+    const ShapeLevel shape;
     std::vector<Estimate> sketches; ///< without a fit; by count, ascending
 };
 
