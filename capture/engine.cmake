@@ -15,6 +15,7 @@ add_library(glcast_engine STATIC
     forced_caps.cpp
     forced_state.cpp
     forced_table.cpp
+    program_stencil.cpp
     solidity.cpp)
 target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_view glcast_options)
 

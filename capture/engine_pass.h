@@ -20,6 +20,7 @@ enum class DepthRule {
             ///< buffer
     blend,  ///< the same over the colours that are there
     missed, ///< as `first`, where `equal` marked nothing
+    unused, ///< no depth test: the program's own stencil
     count,  ///< as `first`, and every fragment, hidden or not, is counted in the stencil buffer
 };
 
@@ -61,6 +62,8 @@ class PassRunner {
 
   private:
     void draw_once(const Pass& pass, const Target& target, bool learning);
+    void find_masks(const Pass& pass, const Target& target);
+    void find_masks_of(Side viewer, const Pass& pass, const Target& target);
     PassFacts facts(const Pass& pass, const Target& target, bool learning);
     glm::dmat4 projection(const Pass& pass) const;
     void set_state(const Pass& pass, const Target& target) const;
@@ -73,6 +76,7 @@ class PassRunner {
     const DrawFunction& draw;
     const glm::dmat4 eye_to_capture;
     const bool mirrored_projection;
+    ProgramStencil* const stencil;
     int draw_count = 0;
     bool own_program = false, unblended = false;
     OffsetLevels offset_levels;

@@ -14,6 +14,9 @@
 namespace glcast::preload {
 namespace {
 
+/// What is drawn over a surface without a depth test is nearer than it, as by glPolygonOffset.
+constexpr double decal_nudge = 1.0 / 1024;
+
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
@@ -30,30 +33,30 @@ class GroupFilter final : public DrawGate {
 
     bool keep(GLenum, long) override {
         if (next >= scene.draws.size()) return false;
-        const Draw& draw = scene.draws[next++];
+        const std::size_t number = next++;
+        const Draw& draw = scene.draws[number];
         if (draw.group != group) return false;
-        if (wanted.transparent == Transparent::skip && blending) return false;
-        if (wanted.everything) return true;
-        if (!wants(draw)) return false;
-        if (draw.eye_map >= 0 || draw.nudge != 0)
-            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
+        const bool skipped = (wanted.only && !(*wanted.only)[number]) ||
+                             (wanted.transparent == Transparent::skip && blending);
+        if (wanted.everything) return !skipped;
+        const bool is_wanted = !skipped && wants(draw);
+        if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
+        if (wanted.marks) inner.PassThrough(-1 - static_cast<GLfloat>(number));
+        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
+        if (draw.eye_map >= 0 || nudge != 0)
+            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
         return true;
     }
-    void drawn() override { eye_space.leave(); }
+    void drawn() override {
+        eye_space.leave();
+        if (wanted.stencil) wanted.stencil->end_draw();
+    }
 
   private:
     bool wants(const Draw& draw) const {
         if (draw.kind == Draw::Kind::line) return wanted.lines;
         if (draw.kind == Draw::Kind::point) return wanted.points;
-        return wanted.solid && is_solid(draw, scene.groups[group]);
-    }
-
-    static bool is_solid(const Draw& draw, const Group& of) {
-        if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
-        if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors])
-            return false;
-        if (!of.writes_depth || draw.writes_depth) return true;
-        return draw.tests_depth && !draw.before_depth;
+        return wanted.solid && is_solid(draw, scene.groups[group], wanted.backdrops);
     }
 
     const Scene& scene;
@@ -65,6 +68,19 @@ class GroupFilter final : public DrawGate {
 };
 
 } // namespace
+
+bool is_reflection(const Draw& draw, const Group& group) {
+    return draw.stencilled && group.open_triangles[draw.mirrors] < group.open_triangles[!draw.mirrors];
+}
+
+bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
+    if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
+    if (is_reflection(draw, of) || draw.is_outline) return false;
+    if (draw.is_decal) return true;
+    if (draw.backdrop) return backdrops;
+    if (!of.writes_depth || draw.writes_depth) return true;
+    return draw.before_depth ? backdrops : draw.tests_depth;
+}
 
 bool Group::same_place(const Group& other) const {
     if (framebuffer != other.framebuffer || draw_buffer != other.draw_buffer || viewport != other.viewport ||
@@ -117,14 +133,17 @@ struct Corners {
     glm::dvec3 lo{INFINITY}, hi{-INFINITY};
 };
 
+/// What the projection takes to (0, 0, z, 0). The view may be part of it, so it need not be the origin.
+glm::dvec3 where_rays_meet(const glm::dmat4& clip_to_eye) {
+    const glm::dvec4 eye = clip_to_eye * glm::dvec4(0, 0, -1, 0);
+    return glm::dvec3(eye) / eye.w;
+}
+
 /// Of what a projection shows, its far plane no further than `far_ratio`.
 Corners corners_of(const glm::dmat4& projection, const Group& group, const glm::dmat4& eye_to_capture,
                    double far_ratio) {
     const glm::dmat4 to_eye = glm::inverse(projection);
-    // Where all rays meet: what the projection takes to (0, 0, z, 0). The view may be part of it, so it need not
-    // be the origin.
-    const glm::dvec4 eye_clip = to_eye * glm::dvec4(0, 0, -1, 0);
-    const glm::dvec3 eye = glm::dvec3(eye_clip) / eye_clip.w;
+    const glm::dvec3 eye = where_rays_meet(to_eye);
     Corners corners;
     for (int corner = 0; corner < 4; ++corner) {
         const double x = corner & 1 ? 1 : -1, y = corner & 2 ? 1 : -1;
@@ -153,6 +172,23 @@ double longest_side(const Corners& corners) {
 }
 
 } // namespace
+
+std::optional<glm::dvec3> eye_of(const Group& group, const glm::dmat4& eye_to_capture) {
+    constexpr double far_away = 1000; // view volumes
+    if (group.projections.empty()) return std::nullopt;
+    const glm::dmat4 to_eye = glm::inverse(group.projections.front());
+    glm::dvec3 eye;
+    if (group.kind == ProjectionKind::perspective) {
+        eye = where_rays_meet(to_eye);
+    } else {
+        const double front = group.depth_reversed ? 1 : -1;
+        const glm::dvec3 near(to_eye * glm::dvec4(0, 0, front, 1)), far(to_eye * glm::dvec4(0, 0, -front, 1));
+        eye = near + (near - far) * far_away;
+    }
+    eye = glm::dvec3(eye_to_capture * glm::dvec4(eye, 1));
+    const bool is_finite = std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
+    return is_finite ? std::optional(eye) : std::nullopt;
+}
 
 std::optional<Box> view_volume(const Group& group, const glm::dmat4& eye_to_capture, double far_ratio) {
     Corners all;

@@ -96,6 +96,8 @@ class Analysis final : public DrawGate {
 
     /// What was drawn before to the same place is no longer seen.
     void cleared(GLbitfield buffers) override {
+        if (buffers & GL_STENCIL_BUFFER_BIT)
+            scene.stencil_events.emplace_back(stencil_clear_now(inner, framebuffer));
         if (!(buffers & GL_COLOR_BUFFER_BIT)) return;
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
@@ -127,8 +129,12 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
-        draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST);
+        draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
         draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        draw.textured = is_textured();
+        draw.lit = inner.IsEnabled(GL_LIGHTING);
+        draw.pinned = tests && is_pinned(group);
         draw.eye_map = eye_map_of(sight, group);
         const EyeMap* map = draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr;
         draw.mirrors = mirrors(map ? map->apply(modelview) : modelview);
@@ -152,6 +158,7 @@ class Analysis final : public DrawGate {
         ++group.draws;
         group.last_draw = static_cast<long>(scene.draws.size());
         hands_over_clip = sight.projection == glm::dmat4(1.0) && modelview == glm::dmat4(1.0);
+        if (tests_stencil) scene.stencil_events.emplace_back(stencil_draw_now(inner, scene.draws.size()));
         scene.draws.push_back(draw);
         add_primitives(primitives);
         return ask(sight);
@@ -159,8 +166,9 @@ class Analysis final : public DrawGate {
 
     void add_primitives(long number) override {
         if (scene.draws.empty()) return; // a lone glEnd
-        const Draw& draw = scene.draws.back();
+        Draw& draw = scene.draws.back();
         Group& group = scene.groups[draw.group];
+        draw.triangles += number;
         (draw.kind == Draw::Kind::filled     ? group.triangles
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
@@ -180,6 +188,7 @@ class Analysis final : public DrawGate {
 
     /// After the frame.
     void finish(std::optional<double> view_angle) {
+        scene.window_has_stencil = get_int(inner, GL_STENCIL_BITS) > 0 || get_int(inner, GL_RED_BITS) == 0;
         for (const auto& [index, fits] : clip_draws) understand(index, fits, view_angle);
         for (Group& group : scene.groups) {
             if (group.framebuffer == 0 || !group.is_spatial()) continue;
@@ -205,6 +214,18 @@ class Analysis final : public DrawGate {
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
         return mask[0] || mask[1] || mask[2];
+    }
+
+    /// By the texture unit that is active, which in a frame with one is that one.
+    bool is_textured() const {
+        return inner.IsEnabled(GL_TEXTURE_2D) || inner.IsEnabled(GL_TEXTURE_CUBE_MAP) ||
+               inner.IsEnabled(GL_TEXTURE_RECTANGLE) || inner.IsEnabled(GL_TEXTURE_1D);
+    }
+
+    bool is_pinned(const Group& group) const {
+        GLfloat range[2] = {0, 1};
+        inner.GetFloatv(GL_DEPTH_RANGE, range);
+        return range[0] == range[1] && range[0] == (group.depth_reversed ? 0 : 1);
     }
 
     Draw::Kind kind_of(GLenum mode) const {

@@ -24,6 +24,7 @@ void take_line(const std::string& line, Seen& seen) {
         {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
         {"waits", [](const std::string& rest, Seen& s) { s.waits = rest; }},
         {"seen", [](const std::string& rest, Seen& s) { s.seen = rest; }},
+        {"offscreen", [](const std::string& rest, Seen& s) { s.offscreen = rest; }},
         {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
         {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
         {"figures", [](const std::string& rest, Seen& s) { s.figures = rest; }},
@@ -74,6 +75,10 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     }
     const std::string refused =
         seen.refused.empty() ? "" : " (a frame could not be recorded: " + seen.refused + ")";
+    if (seen.frames == 0 && !seen.offscreen.empty()) {
+        return seen.api + " seen, but no whole frame" + refused + ": it draws into " + seen.offscreen +
+               ", and neither swaps nor reads what it draws: " + ending;
+    }
     if (seen.frames == 0) {
         return seen.api + " seen, but no whole frame" + refused + ": " + ending +
                " (if it draws only when its window is touched, --nudge helps)";

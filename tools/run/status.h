@@ -14,10 +14,11 @@ struct Capture {
 
 /// What is known of the program's drawing so far.
 struct Seen {
-    std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
+    std::string api;     ///< "GLX", "EGL" or "OSMesa", empty while no GL was seen
     long frames = 0;     ///< at least so many have ended without a cast
     std::string waits;   ///< what no frame was taken without: "the key F12 was not pressed"
     std::string seen;    ///< instead of a solid, with what to do
+    std::string offscreen; ///< where it draws that is no window
     std::string refused; ///< why a frame could not be recorded, the last one
     long casting = 0;    ///< the frame being cast
     std::string figures;           ///< of the capture that comes next
