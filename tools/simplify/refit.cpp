@@ -18,7 +18,7 @@ struct Amount {
 };
 // Measured on teapots and spheres: four times the samples gain 2 %, twice the rounds 3 %.
 constexpr Amount full{48, 1'200'000, 24}; // about a second
-constexpr Amount little{16, 100'000, 5};
+constexpr Amount little{12, 60'000, 4};
 constexpr std::size_t least_samples = 1'500, most_samples = 200'000;
 constexpr std::size_t too_few_per_vertex = 12, most_idle_rounds = 4;
 constexpr double worth_a_round = 0.002; // of the squared distances
