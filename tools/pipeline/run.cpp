@@ -142,7 +142,8 @@ void Run::add_sized(const std::vector<double>& pixels) {
         full.mesh, SimplifyOptions{.refit = options.progressive.empty(), .checked = &full_check});
     search = std::make_unique<LevelSearch>(*simplification, *meter, full.mesh.triangles.size(),
                                            [this](Mesh&& mesh) { return shaped(std::move(mesh), true); });
-    std::vector<double> widths = pixels, limits;
+    std::vector<double> widths = pixels;
+    std::vector<SizedLimit> limits;
     std::sort(widths.begin(), widths.end(), std::greater<>());
     for (const double width : widths) limits.push_back(error_within(width, made.info.n) * made.sample);
     std::vector<SizedLevel> found = search->coarsest_within(limits);
@@ -150,7 +151,7 @@ void Run::add_sized(const std::vector<double>& pixels) {
     for (std::size_t k = 0; k < found.size(); ++k) {
         found[k].level.pixels = widths[k];
         drafts.push_back(
-            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k]});
+            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k].p999});
     }
     if (!options.progressive.empty()) bind_to_progressive_mesh();
 }

@@ -8,12 +8,16 @@ namespace glcast {
 namespace {
 
 constexpr int default_levels = 4;
-constexpr double pixel_share = 1.0 / 8;            // of a pixel: the error of a level
+// Of a pixel: errors of a level.
+constexpr double p999_share = 1.0 / 8;
+constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 100;
+constexpr double outlines_below = 32; // pixels: of a picture, that many of them are outline
 constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
 constexpr double first_count = 65'536;             // triangles; sketches go down from here
 constexpr double sketch_step = 4;                  // of counts
 constexpr double sketch_close_enough = 2;          // of counts between which a limit lies
 constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
+constexpr double mean_left = 0.65; // by the fit, of outlines too
 // The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
 constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
 constexpr double far_within = 0.6;                 // of the limit
@@ -28,62 +32,71 @@ std::vector<double> default_pixels(int n) {
     return pixels;
 }
 
-double error_within(double pixels, int n) { return n / pixels * pixel_share; }
+SizedLimit error_within(double pixels, int n) {
+    const double pixel = n / pixels, few = std::sqrt(std::min(1.0, pixels / outlines_below));
+    const double mean = 2 * pixels >= n ? std::min(mean_share * few, finest_mean_share) : mean_share * few;
+    return {pixel * p999_share, pixel * mean};
+}
 
-double LevelSearch::estimate(std::size_t count) {
+double LevelSearch::Estimate::share(const SizedLimit& limit) const {
+    return std::max(error.p999 / limit.p999, error.mean / limit.mean);
+}
+
+double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
     if (count >= all) { // the full surface itself
-        sketches.push_back({double(all), 0});
+        sketches.push_back({double(all), {}});
         return 0;
     }
     simplification.collapse_to(count);
     Level level;
     level.mesh = simplification.level(count, FitWork::none);
-    const double error = meter.glance(level);
-    const double made = double(level.mesh.triangles.size());
-    const auto at = std::lower_bound(sketches.begin(), sketches.end(), made,
+    const Glance error = meter.glance(level);
+    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * mean_left}};
+    const auto at = std::lower_bound(sketches.begin(), sketches.end(), made.count,
                                      [](const Estimate& e, double value) { return e.count < value; });
-    if (at == sketches.end() || at->count != made) sketches.insert(at, {made, error});
-    return error;
+    if (at == sketches.end() || at->count != made.count) sketches.insert(at, made);
+    return made.share(limit);
 }
 
 /// Until each limit, as it is before a fit, lies between two counts that are near each other.
-void LevelSearch::sketch(const std::vector<double>& limits) {
+void LevelSearch::sketch(const std::vector<SizedLimit>& limits) {
     double count = std::min(first_count, double(all));
-    while (estimate(std::size_t(count)) > limits.front() && count < double(all))
+    while (estimate(std::size_t(count), limits.front()) > 1 && count < double(all))
         count = std::min(count * sketch_step, double(all));
     count = sketches.front().count;
-    while (sketches.front().error <= limits.back() && count > fewest) {
+    while (sketches.front().share(limits.back()) <= 1 && count > fewest) {
         count = std::max(std::floor(count / sketch_step), double(fewest));
-        estimate(std::size_t(count));
+        estimate(std::size_t(count), limits.back());
         if (simplification.least() > count) break; // no fewer can be
     }
-    for (const double limit : limits)
+    for (const SizedLimit& limit : limits)
         for (;;) {
             const auto fine = std::find_if(sketches.begin(), sketches.end(),
-                                           [&](const Estimate& e) { return e.error <= limit; });
+                                           [&](const Estimate& e) { return e.share(limit) <= 1; });
             if (fine == sketches.begin() || fine == sketches.end()) break;
             const double high = fine->count, low = std::prev(fine)->count;
             if (high <= sketch_close_enough * low || high - low < 8) break;
-            estimate(std::size_t(std::sqrt(high * low)));
+            estimate(std::size_t(std::sqrt(high * low)), limit);
         }
 }
 
-/// Where a fitted level is likely to be within.
-double LevelSearch::first_try(double limit) const {
-    const double coarse = sketched(limit * coarse_gains);
-    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit * fine_gains));
-}
-
-/// The count at which the sketched error is the limit: it falls as a power of the count.
-double LevelSearch::sketched(double limit) const {
-    const auto fine =
-        std::find_if(sketches.begin(), sketches.end(), [&](const Estimate& e) { return e.error <= limit; });
+/// The count at which the sketched error is such a share of the limit: it falls as a power of the count.
+double LevelSearch::sketched(const SizedLimit& limit, double share) const {
+    const auto fine = std::find_if(sketches.begin(), sketches.end(),
+                                   [&](const Estimate& e) { return e.share(limit) <= share; });
     if (fine == sketches.end()) return double(all);
     if (fine == sketches.begin()) return fine->count;
-    const Estimate &high = *fine, &low = *std::prev(fine);
-    if (!(high.error > 0)) return high.count;
-    const double share = std::log(low.error / limit) / std::log(low.error / high.error);
-    return low.count * std::pow(high.count / low.count, std::clamp(share, 0.0, 1.0));
+    const double high = fine->share(limit), low = std::prev(fine)->share(limit);
+    if (!(high > 0)) return fine->count;
+    const double part = std::log(low / share) / std::log(low / high);
+    return std::prev(fine)->count *
+           std::pow(fine->count / std::prev(fine)->count, std::clamp(part, 0.0, 1.0));
+}
+
+/// Where a fitted level is likely to be within.
+double LevelSearch::first_try(const SizedLimit& limit) const {
+    const double coarse = sketched(limit, coarse_gains);
+    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit, fine_gains));
 }
 
 SizedLevel LevelSearch::make(std::size_t count) const {
@@ -92,7 +105,7 @@ SizedLevel LevelSearch::make(std::size_t count) const {
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
 /// within that one more try is worth it.
-SizedLevel LevelSearch::search(double limit) const {
+SizedLevel LevelSearch::search(const SizedLimit& limit) const {
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
@@ -100,7 +113,8 @@ SizedLevel LevelSearch::search(double limit) const {
         SizedLevel tried = make(std::size_t(std::min(count, double(all))));
         if (tried.level.mesh.triangles.size() >= all)
             return found.count ? std::move(found) : std::move(tried);
-        const double error = meter.glance(tried.level), share = error / (margin * limit);
+        const Glance error = meter.glance(tried.level);
+        const double share = Estimate{count, {error.p999, error.mean}}.share(limit * margin);
         if (share > 1) {
             if (found.count) return found;
             coarse = count;
@@ -114,7 +128,7 @@ SizedLevel LevelSearch::search(double limit) const {
     }
 }
 
-std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<double>& limits) {
+std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimit>& limits) {
     if (limits.empty()) return {};
     sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
