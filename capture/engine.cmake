@@ -9,6 +9,7 @@ add_library(glcast_engine STATIC
     engine_normal.cpp
     engine_pass.cpp
     engine_peel.cpp
+    engine_sides.cpp
     engine_slab.cpp
     engine_target.cpp
     forced_calls.cpp

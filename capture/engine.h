@@ -41,6 +41,10 @@ struct EngineOptions {
     LayerMethod layer_method = LayerMethod::peel;
     bool use_shaders = true; ///< false: as if this OpenGL had none
 
+    /// Hits are shown as either side sees them (ViewImage::other_colour); `culls`: without the faces that the program
+    /// culls for a viewer on that side, where others are there too.
+    bool both_sides = false, culls = false;
+
     /// Where draws are kept to places by the program's stencil test: what the draw function tells of each draw.
     ProgramStencil* stencil = nullptr;
 };

@@ -167,6 +167,7 @@ PassFacts PassRunner::facts(const Pass& pass, const Target& target, bool learnin
     facts.kind = pass.kind;
     facts.depth = depth_function(pass);
     facts.stencil = stencil_rule(pass);
+    facts.culls = pass.culls;
     facts.viewer_at_plus = pass.side == Side::plus;
     facts.outermost = pass.outermost;
     if (learning) facts.learnt = &offset_levels;

@@ -27,6 +27,7 @@ struct PassFacts {
     GLenum depth = GL_LESS;
     StencilRule stencil;
     bool viewer_at_plus = false; ///< the greater depth is the nearer
+    bool culls = false;          ///< the program's face culling holds
     bool outermost = false;      ///< no surface is in front of what is drawn
     DepthShift shift;
     const OffsetLevels* levels = nullptr; ///< of the frame; null where offsets count for nothing
@@ -59,6 +60,7 @@ class ForcedState {
     bool saw_blending = false;    ///< the colours are not yet what the program would leave
     int depth_clears = 0;
 
+    bool culls() const { return pass.culls; }
     void push(GLbitfield mask); ///< call before GL's own
     void pop();                 ///< call after GL's own
 

@@ -127,6 +127,7 @@ CaptureInfo make_info(long number, const Options& options, const EngineOptions& 
     info.renderer = renderer ? reinterpret_cast<const char*>(renderer) : "";
     info.normals = options.normals == NormalMethod::six_lights ? "six" : "signed";
     info.glcast_version = GLCAST_VERSION;
+    info.both_sides = engine.both_sides;
     return info;
 }
 
@@ -265,6 +266,7 @@ class Cast {
         CastResult result{CastOutcome::nothing_solid, ""};
         for (const Candidate& c : candidates) {
             (is_scene(c) ? result.held.solid : result.held.flat) += c.group.triangles + c.group.outlined;
+            if (is_scene(c)) result.held.masked += c.group.hidden_triangles;
             result.held.lines += c.group.lines;
             result.held.points += c.group.points;
         }
@@ -332,6 +334,11 @@ class Cast {
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
         engine.stencil = follow_stencil(candidate);
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (candidate.in_part[part] < 0) continue;
+            const Sides sides = sides_of(scenes[part], candidate.in_part[part]);
+            engine.both_sides |= sides.apart, engine.culls |= sides.culled;
+        }
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
@@ -413,6 +420,13 @@ class Cast {
                 group.draws;
             say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
                      "--fov DEGREES tells it");
+        }
+        if (group.is_hidden_line()) {
+            not_understood["faces drawn into the depth buffer alone (hidden lines): in the colour of the background"] =
+                group.hidden_triangles;
+            if (group.lines > 0 && !options.include.lines)
+                say_once("hidden-line drawing: its faces are cast in the colour of the background; --include lines casts "
+                         "its lines too");
         }
         if (group.judged_by_function && options.transparent == Transparent::by_alpha)
             not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -9,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "shim/preload/eye_space.h"
+#include "shim/preload/hidden_faces.h"
 #include "shim/preload/scene_table.h"
 
 namespace glcast::preload {
@@ -45,12 +47,16 @@ class GroupFilter final : public DrawGate {
         const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
         if (draw.eye_map >= 0 || nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
+        if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
         return true;
     }
     void drawn() override {
+        hidden_faces.leave();
         eye_space.leave();
         if (wanted.stencil) wanted.stencil->end_draw();
     }
+    bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
+    bool fixes_colour() const override { return hidden_faces.entered(); }
 
   private:
     bool wants(const Draw& draw) const {
@@ -63,6 +69,7 @@ class GroupFilter final : public DrawGate {
     const int group;
     const Wanted wanted;
     EyeSpace eye_space{inner};
+    HiddenFaces hidden_faces{inner};
     std::size_t next = 0;
     bool blending = false;
 };
@@ -80,6 +87,20 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     if (draw.backdrop) return backdrops;
     if (!of.writes_depth || draw.writes_depth) return true;
     return draw.before_depth ? backdrops : draw.tests_depth;
+}
+
+Sides sides_of(const Scene& scene, int group) {
+    Sides sides;
+    std::set<long> by_culled[2]; // triangles of draws without fronts, without backs
+    for (const Draw& draw : scene.draws) {
+        if (draw.group != group || !is_solid(draw, scene.groups[group], false)) continue;
+        sides.apart |= draw.two_colours;
+        if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
+            by_culled[draw.culled == GL_BACK].insert(draw.triangles);
+    }
+    for (const long triangles : by_culled[0]) sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
+    sides.apart |= sides.culled;
+    return sides;
 }
 
 bool Group::same_place(const Group& other) const {

@@ -53,6 +53,8 @@ struct Group {
     long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
     long lines = 0, points = 0;
     bool writes_depth = false; ///< any filled draw
+    long hidden_triangles = 0; ///< filled, drawn into the depth buffer alone
+    std::array<GLfloat, 4> background{}; ///< what the window is cleared to
     /// Of open draws; [1]: of those that mirror.
     std::array<long, 2> open_triangles{};
     /// Draws of faces that show only at a depth which is there already; only at greater depths than are there, where
@@ -64,6 +66,10 @@ struct Group {
     std::optional<glm::dmat4> base_modelview;
     bool base_is_stencilled = false;
 
+    /// Faces that only hide what is behind them, and lines over them.
+    bool is_hidden_line() const {
+        return hidden_triangles > 0 && open_triangles[0] + open_triangles[1] == 0 && outlined + lines + points > 0;
+    }
     /// Drawn in space, not on the screen.
     bool is_spatial() const { return kind != ProjectionKind::flat; }
     bool same_place(const Group& other) const;
@@ -79,12 +85,15 @@ struct Draw {
     bool before_depth = false; ///< nothing of the group had written depth yet
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
+    bool hides = false;        ///< filled, drawn into the depth buffer alone
     bool mirrors = false;      ///< its modelview turns right hands into left ones
     bool textured = false, lit = false;
     bool pinned = false;       ///< the depth range leaves it the far plane alone
     bool backdrop = false;     ///< as backdrop_search.h has found
     long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    bool two_colours = false;  ///< its fronts and its backs are lit with materials of their own
+    GLenum culled = GL_NONE;   ///< its faces that are not drawn
     StencilUse stencil;        ///< as planned (stencil_plan.h)
     bool is_outline = false;   ///< around the picture of something (stencil_plan.h)
     bool is_decal = false;     ///< on a surface, without a depth test
@@ -131,6 +140,13 @@ struct Wanted {
 bool is_reflection(const Draw& draw, const Group& group);
 /// Is it one of the draws of its group that are cast? `backdrops`: these too.
 bool is_solid(const Draw& draw, const Group& of, bool backdrops);
+
+/// How the solid draws of a group tell fronts from backs.
+struct Sides {
+    bool apart = false;  ///< they look different
+    bool culled = false; ///< since fronts and backs of the same are drawn one after the other
+};
+Sides sides_of(const Scene& scene, int group);
 
 /// Replays the frame, but of its draws only some of one group.
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "capture/forced_state.h"
 #include "capture/solidity.h"
 #include "shim/preload/feedback_probe.h"
 #include "shim/preload/scene.h"
@@ -53,6 +54,27 @@ std::optional<glm::dmat4> scale_before_view(const glm::dmat4& projection, const 
     glm::dmat4 matrix(1.0);
     for (int i = 0; i < 3; ++i) matrix[i][i] = (*scale)[i];
     return matrix;
+}
+
+/// Backs are lit by a material of their own, with a colour that ours show.
+bool has_two_colours(const GlTable& gl) {
+    if (!gl.IsEnabled(GL_LIGHTING)) return false;
+    GLboolean two_sided = GL_FALSE;
+    gl.GetBooleanv(GL_LIGHT_MODEL_TWO_SIDE, &two_sided);
+    if (!two_sided) return false;
+    GLenum tracked = GL_NONE;
+    if (gl.IsEnabled(GL_COLOR_MATERIAL)) {
+        tracked = mapped_material(static_cast<GLenum>(get_int(gl, GL_COLOR_MATERIAL_PARAMETER)));
+        const bool of_one = get_int(gl, GL_COLOR_MATERIAL_FACE) != GL_FRONT_AND_BACK;
+        if (of_one && tracked != GL_NONE) return true;
+    }
+    for (const GLenum name : {GL_DIFFUSE, GL_EMISSION}) {
+        std::array<GLfloat, 4> front{}, back{};
+        gl.GetMaterialfv(GL_FRONT, name, front.data());
+        gl.GetMaterialfv(GL_BACK, name, back.data());
+        if (front != back && mapped_material(name) != tracked) return true;
+    }
+    return false;
 }
 
 /// A similarity, be it one that mirrors.
@@ -129,9 +151,12 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
-        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST);
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST), colours = writes_colour();
         draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        if (draw.kind == Draw::Kind::filled && inner.IsEnabled(GL_CULL_FACE) && colours)
+            draw.culled = static_cast<GLenum>(get_int(inner, GL_CULL_FACE_MODE));
+        draw.is_open = draw.writes_depth && !draw.stencilled && colours;
+        draw.hides = draw.writes_depth && !tests_stencil && !colours && draw.kind == Draw::Kind::filled;
         draw.textured = is_textured();
         draw.lit = inner.IsEnabled(GL_LIGHTING);
         draw.pinned = tests && is_pinned(group);
@@ -173,8 +198,10 @@ class Analysis final : public DrawGate {
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
                                              : group.points) += number;
+        if (draw.hides) group.hidden_triangles += number;
         if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
         if (gives_w && hands_over_clip) wonder_about_w();
+        if (draw.kind == Draw::Kind::filled) draw.two_colours |= has_two_colours(inner);
     }
 
     void drawn() override {
@@ -242,6 +269,7 @@ class Analysis final : public DrawGate {
         now.framebuffer = framebuffer;
         now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
         now.viewport = viewport;
+        inner.GetFloatv(GL_COLOR_CLEAR_VALUE, now.background.data());
         now.projection = sight.projection;
         now.kind = sight.perspective ? ProjectionKind::perspective
                    : tests_depth     ? ProjectionKind::orthographic

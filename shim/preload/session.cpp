@@ -20,9 +20,15 @@ std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
 
+/// Of a 32-bit address space the program needs a share too.
+std::size_t bytes_for_recording(std::size_t mebibytes) {
+    constexpr std::size_t most = sizeof(void*) == 4 ? std::size_t(3) << 29 : SIZE_MAX;
+    return std::min(mebibytes, most >> 20) << 20;
+}
+
 Session* make_session() {
     auto* fresh = new Session;
-    record::set_memory_limit(fresh->options.memory_mib << 20);
+    record::set_memory_limit(bytes_for_recording(fresh->options.memory_mib));
     if (!fresh->options.error.empty()) {
         say("%s (nothing will be captured)", fresh->options.error.c_str());
         tell("failed", fresh->options.error);
@@ -89,7 +95,7 @@ template <class Work> void guarded(Work&& work) noexcept {
 /// The first context that is current.
 void greet(Session& s, const NativeContext& context) {
     if (speaks_alone()) say("hooked %s in %s", context.system->name(), program_name().c_str());
-    tell("hooked", context.system->name());
+    tell("hooked", std::string(context.system->name()) + " " + program_name());
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");
     if (s.options.signal) tell("waits", "the signal did not come");

@@ -27,22 +27,6 @@ ReadRun cast(const std::vector<std::string>& command, Environment environment = 
     return run;
 }
 
-/// Of a body that no line along z meets more than once: what lies between its first and its last hits.
-double volume(const Capture& capture) {
-    double sum = 0;
-    for (const ViewImage& image : capture.images) {
-        if (image.view.axis != Axis::z || image.view.layer != 0) continue;
-        const double sign = image.view.side == Side::plus ? 1 : -1;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) {
-                const std::size_t at = std::size_t(j) * n + i;
-                if (image.covered(at))
-                    sum += sign * lattice_point(capture.info.box, n, Axis::z, i, j, image.depth[at]).z;
-            }
-    }
-    return std::abs(sum) * std::pow(capture.info.box.size / n, 2);
-}
-
 constexpr double body = 6; ///< of three boxes: 3 + 2 + 1 (programs/chiral.c)
 constexpr double grid =
     0.04; ///< a side of 1 is 14.67 samples, and counts as 15; a box that is missing is 0.17 or more
@@ -99,6 +83,13 @@ TEST_P(ReadBeforeSwap, takes_nothing_from_the_frame) { expect_the_body({READS, G
 TEST_P(ReadBeforeSwap, takes_nothing_from_the_only_frame) { expect_the_body({READS, GetParam(), "1"}); }
 INSTANTIATE_TEST_SUITE_P(Reads, ReadBeforeSwap, testing::Values("pick-swap", "read-swap", "preview-swap"),
                          test_name);
+
+// JOGL's GLJPanel.
+TEST(Reads, of_a_picture_that_a_shader_turns_over_cast_the_scene) {
+    const ReadRun run = cast({READS, "surfaceless-turned"});
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    EXPECT_NEAR(volume(*run.capture), body, grid * body) << run.outcome.err;
+}
 
 TEST(Reads, of_a_swapping_program_end_no_frame) {
     expect_the_body({READS, "read-swap"}, {{"GLCAST_FRAME", "3"}});

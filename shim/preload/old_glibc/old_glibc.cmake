@@ -11,6 +11,6 @@ add_custom_command(
 add_custom_target(glcast_old_glibc DEPENDS ${stubs}/made)
 add_dependencies(glcast_preload glcast_old_glibc)
 target_sources(glcast_preload PRIVATE old_glibc/stand_ins.cpp)
-target_link_directories(glcast_preload BEFORE PRIVATE ${stubs})
+target_link_options(glcast_preload BEFORE PRIVATE -L${stubs}) # target_link_directories would make it a RUNPATH too
 target_link_libraries(glcast_preload PRIVATE pthread dl)
 set_property(TARGET glcast_preload APPEND PROPERTY LINK_DEPENDS ${stubs}/made)

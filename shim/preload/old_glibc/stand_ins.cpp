@@ -1,11 +1,13 @@
 // Functions that the C++ runtime, the headers of today and we ourselves use, and that glibc got after 2.17.
 // They are linked into the library and seen by nobody else, so that it loads in old systems (make_stubs.py).
+#undef _FILE_OFFSET_BITS // would make stat64 of stat
 #include <dlfcn.h>
 #include <elf.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <link.h>
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -48,6 +50,17 @@ int fstat64(int descriptor, struct stat64* status) noexcept {
 int fstatat64(int folder, const char* path, struct stat64* status, int flags) noexcept {
     return __fxstatat64(stat_version, folder, path, status, flags);
 }
+
+#ifdef __i386__
+// glibc 2.28, where files may be large.
+int fcntl64(int descriptor, int command, ...) {
+    va_list rest;
+    va_start(rest, command);
+    const long argument = va_arg(rest, long); // an int, a long or a pointer
+    va_end(rest);
+    return static_cast<int>(syscall(SYS_fcntl64, descriptor, command, argument));
+}
+#endif
 
 // glibc 2.32. False is right for every program: the C++ runtime then counts references atomically.
 char __libc_single_threaded = 0;

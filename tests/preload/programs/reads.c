@@ -104,6 +104,34 @@ static void draw_and_get_texture(void) {
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
+/* As JOGL's GLJPanel does: turned over by a GLSL program into a second framebuffer, and read there. */
+static void draw_turn_and_read(void) {
+    static const char* const text =
+        "uniform sampler2D picture; void main() { gl_FragColor = texture2D(picture, vec2(gl_FragCoord.x, 100.0 - "
+        "gl_FragCoord.y) / 100.0); }";
+    static GLuint scene, picture, turned, program;
+    if (!program) {
+        scene = framebuffer, picture = colour;
+        make_framebuffer();
+        turned = framebuffer;
+        const GLuint shader = glCreateShader(GL_FRAGMENT_SHADER);
+        glShaderSource(shader, 1, (const char**)&text, 0);
+        glCompileShader(shader);
+        glAttachShader(program = glCreateProgram(), shader);
+        glLinkProgram(program);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, scene);
+    draw();
+    glBindFramebuffer(GL_FRAMEBUFFER, turned);
+    glBindTexture(GL_TEXTURE_2D, picture);
+    glUseProgram(program);
+    glDisable(GL_DEPTH_TEST);
+    glMatrixMode(GL_PROJECTION), glLoadIdentity();
+    glMatrixMode(GL_MODELVIEW), glLoadIdentity();
+    glRectf(-1, -1, 1, 1);
+    glUseProgram(0);
+    read_all();
+}
 static int shows_something(void) {
     XImage* image = XGetImage(display, pixmap, 0, 0, size, size, AllPlanes, ZPixmap);
     int shown = 0;
@@ -172,6 +200,7 @@ static const struct Way {
     {"texture", framebuffer_and_window, draw_and_get_texture},
     {"surfaceless", framebuffer_and_nothing, draw_and_read},
     {"surfaceless-texture", framebuffer_and_nothing, draw_and_get_texture},
+    {"surfaceless-turned", framebuffer_and_nothing, draw_turn_and_read},
     {"pixmap-wait", open_pixmap, draw_and_get_image},
     {"pixmap-leave", open_pixmap, draw_and_leave},
     {"empty-first", open_pbuffer, clear_and_read},
