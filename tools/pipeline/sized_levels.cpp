@@ -10,7 +10,7 @@ namespace {
 constexpr int default_levels = 4;
 // Of a pixel: errors of a level.
 constexpr double p999_share = 1.0 / 8;
-constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 100;
+constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
 constexpr double outlines_below = 32; // pixels: of a picture, that many of them are outline
 constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
 constexpr double first_count = 65'536;             // triangles; sketches go down from here
