@@ -50,7 +50,8 @@ degrees too.
 `glcast mesh` makes levels for four sizes on the screen, as the paper argues (n = 2 w): level k is for an object n / 2^(k+1) pixels wide, k = 0 to 3.
 99.9 % of its surface is at most an eighth of such a pixel from the full surface, both ways: 2^k / 4 samples. The certificate says what was measured.
 The mean is at most a 43rd of a pixel, by estimate; the smooth surface of a sphere would else be far off everywhere, but nowhere very far. It is less
-in pictures below 32 pixels, where more of the pixels lie on outlines, and a 200th at n / 2 pixels and more, where the full surface can be matched.
+in pictures below 32 pixels, where more of the pixels lie on outlines, and a 200th at n / 2 pixels and more, where the full surface can be matched;
+more below 64 pixels, where that is coarse itself.
 `--pixels P` makes the level for P pixels by the same rule.
 
 The count is looked for in one run of collapses (`tools/pipeline/sized_levels.h`). Errors of bare levels at some eight counts are estimated from 10,000

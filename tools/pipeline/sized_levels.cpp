@@ -12,6 +12,7 @@ constexpr int default_levels = 4;
 constexpr double p999_share = 1.0 / 8;
 constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
 constexpr double outlines_below = 32; // pixels: of a picture, that many of them are outline
+constexpr double full_is_off_below = 64; // pixels: the full surface bends too, by whole samples
 constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
 constexpr double first_count = 65'536;             // triangles; sketches go down from here
 constexpr double sketch_step = 4;                  // of counts
@@ -34,7 +35,8 @@ std::vector<double> default_pixels(int n) {
 
 SizedLimit error_within(double pixels, int n) {
     const double pixel = n / pixels, few = std::sqrt(std::min(1.0, pixels / outlines_below));
-    const double mean = 2 * pixels >= n ? std::min(mean_share * few, finest_mean_share) : mean_share * few;
+    double mean = mean_share * few;
+    if (2 * pixels >= n) mean = std::min(mean, finest_mean_share * std::max(1.0, full_is_off_below / pixels));
     return {pixel * p999_share, pixel * mean};
 }
 

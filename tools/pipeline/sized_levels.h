@@ -22,7 +22,8 @@ struct SizedLimit {
 
 /// Where the capture's n samples are drawn `pixels` wide, in samples. 99.9 % within an eighth of a pixel: 2^k / 4
 /// at n / 2^(k+1) pixels. The mean within a 43rd of a pixel; less in pictures below 32 pixels, as more of their
-/// pixels lie on outlines; and within a 200th from n / 2 pixels on, where the full surface can be matched.
+/// pixels lie on outlines; and within a 200th from n / 2 pixels on, where the full surface can be matched: more
+/// below 64 pixels, where that is coarse itself.
 SizedLimit error_within(double pixels, int n);
 
 /// A level as a file will have it, but for its normals, colours and texture: made of what a count leaves.
