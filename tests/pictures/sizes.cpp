@@ -23,9 +23,9 @@ struct Options {
 Json row_of(const std::string& name, const Level& level, const OwnSize& size, bool finest) {
     const MeshCheck check = check_mesh(level.mesh, CheckDepth::everything);
     const bool right = looks_right(size, finest);
-    std::fprintf(stderr, "%-12s %4d pixels %7zu triangles: %.2f dB, full surface %.2f: %s; %s\n", name.c_str(),
-                 size.pixels, check.triangles, size.level.psnr, size.full.psnr, right ? "right" : "NOT right",
-                 describe(check).c_str());
+    std::fprintf(stderr, "%-12s %4d pixels %7zu triangles: %.2f dB, full surface %.2f: %s; %s\n",
+                 name.c_str(), size.pixels, check.triangles, size.level.psnr, size.full.psnr,
+                 right ? "right" : "NOT right", describe(check).c_str());
     return {{"program", name},
             {"pixels", size.pixels},
             {"triangles", check.triangles},

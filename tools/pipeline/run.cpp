@@ -141,7 +141,7 @@ void Run::add_sized(const std::vector<double>& pixels) {
     simplification = std::make_unique<Simplification>(
         full.mesh, SimplifyOptions{.refit = options.progressive.empty(), .checked = &full_check});
     search = std::make_unique<LevelSearch>(*simplification, *meter, full.mesh.triangles.size(),
-                                           [this](Mesh&& mesh) { return shaped(std::move(mesh), true); });
+                                           [this](Mesh&& mesh, bool outlines) { return shaped(std::move(mesh), outlines); });
     std::vector<double> widths = pixels;
     std::vector<SizedLimit> limits;
     std::sort(widths.begin(), widths.end(), std::greater<>());

@@ -11,14 +11,14 @@ constexpr int default_levels = 4;
 // Of a pixel: errors of a level.
 constexpr double p999_share = 1.0 / 8;
 constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
-constexpr double outlines_below = 32; // pixels: of a picture, that many of them are outline
-constexpr double full_is_off_below = 64; // pixels: the full surface bends too, by whole samples
-constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
-constexpr double first_count = 65'536;             // triangles; sketches go down from here
-constexpr double sketch_step = 4;                  // of counts
-constexpr double sketch_close_enough = 2;          // of counts between which a limit lies
-constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
-constexpr double mean_left = 0.65; // by the fit, of outlines too
+constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
+constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
+constexpr std::size_t fewest = 4;         // triangles of a closed mesh
+constexpr double first_count = 65'536;    // triangles; sketches go down from here
+constexpr double sketch_step = 4;         // of counts
+constexpr double sketch_close_enough = 2; // of counts between which a limit lies
+constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
+constexpr double mean_left = 0.65;        // by the fit, of outlines too
 // The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
 constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
 constexpr double far_within = 0.6;                 // of the limit
@@ -53,7 +53,8 @@ double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
     Level level;
     level.mesh = simplification.level(count, FitWork::none);
     const Glance error = meter.glance(level);
-    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * mean_left}};
+    const double left = double(level.mesh.triangles.size()) <= coarse_count ? mean_left : 1;
+    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * left}};
     const auto at = std::lower_bound(sketches.begin(), sketches.end(), made.count,
                                      [](const Estimate& e, double value) { return e.count < value; });
     if (at == sketches.end() || at->count != made.count) sketches.insert(at, made);
@@ -102,7 +103,25 @@ double LevelSearch::first_try(const SizedLimit& limit) const {
 }
 
 SizedLevel LevelSearch::make(std::size_t count) const {
-    return {shape(simplification.level(count, FitWork::little)), count};
+    return {shape(simplification.level(count, FitWork::little), true), count};
+}
+
+double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const {
+    const Glance error = meter.glance(level);
+    return Estimate{0, {error.p999, error.mean}}.share(limit * margin);
+}
+
+/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left.
+SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double& share) const {
+    Mesh simplified = simplification.level(count, FitWork::little), plain = simplified;
+    SizedLevel made{shape(std::move(simplified), true), count};
+    share = share_of(made.level, limit);
+    if (share <= 1) return made;
+    SizedLevel without{shape(std::move(plain), false), count};
+    const double share_without = share_of(without.level, limit);
+    if (share_without >= share) return made;
+    share = share_without;
+    return without;
 }
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
@@ -112,11 +131,10 @@ SizedLevel LevelSearch::search(const SizedLimit& limit) const {
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
     for (double count = std::max(first_try(limit), least);;) {
-        SizedLevel tried = make(std::size_t(std::min(count, double(all))));
-        if (tried.level.mesh.triangles.size() >= all)
-            return found.count ? std::move(found) : std::move(tried);
-        const Glance error = meter.glance(tried.level);
-        const double share = Estimate{count, {error.p999, error.mean}}.share(limit * margin);
+        double share = 0;
+        SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
+        if (level.level.mesh.triangles.size() >= all)
+            return found.count ? std::move(found) : std::move(level);
         if (share > 1) {
             if (found.count) return found;
             coarse = count;
@@ -124,7 +142,7 @@ SizedLevel LevelSearch::search(const SizedLimit& limit) const {
             continue;
         }
         const bool first = found.count == 0;
-        found = std::move(tried);
+        found = std::move(level);
         count = std::floor(count * std::max(share * least_step, 1 / most_step));
         if (!first || share > far_within || count <= std::max(coarse, least)) return found;
     }

@@ -20,14 +20,15 @@ struct SizedLimit {
     SizedLimit operator*(double factor) const { return {p999 * factor, mean * factor}; }
 };
 
-/// Where the capture's n samples are drawn `pixels` wide, in samples. 99.9 % within an eighth of a pixel: 2^k / 4
-/// at n / 2^(k+1) pixels. The mean within a 43rd of a pixel; less in pictures below 32 pixels, as more of their
-/// pixels lie on outlines; and within a 200th from n / 2 pixels on, where the full surface can be matched: more
-/// below 64 pixels, where that is coarse itself.
+/// Where the capture's n samples are drawn `pixels` wide, in samples. 99.9 % within an eighth of a pixel: 2^k
+/// / 4 at n / 2^(k+1) pixels. The mean within a 43rd of a pixel; less in pictures below 32 pixels, as more of
+/// their pixels lie on outlines; and within a 200th from n / 2 pixels on, where the full surface can be
+/// matched: more below 64 pixels, where that is coarse itself.
 SizedLimit error_within(double pixels, int n);
 
 /// A level as a file will have it, but for its normals, colours and texture: made of what a count leaves.
-using ShapeLevel = std::function<Level(Mesh&& simplified)>;
+/// `outlines`: its vertices are moved for them.
+using ShapeLevel = std::function<Level(Mesh&& simplified, bool outlines)>;
 
 struct SizedLevel {
     Level level;
@@ -62,6 +63,8 @@ class LevelSearch {
     double first_try(const SizedLimit& limit) const;
     SizedLevel search(const SizedLimit& limit) const;
     SizedLevel make(std::size_t count) const;
+    SizedLevel tried(std::size_t count, const SizedLimit& limit, double& share) const;
+    double share_of(const Level& level, const SizedLimit& limit) const;
 
     Simplification& simplification;
     const LevelMeter& meter;
