@@ -120,8 +120,7 @@ struct ViewError {
 
 PictureSum compare(const Picture& a, const Picture& b) { return {squared_error(a, b), 0, ssim(a, b)}; }
 
-ViewError compare(const Level& shown, const ReferenceView& view, int samples) {
-    const SeenImage level = rasterise(shown, view.camera);
+ViewError compare(const SeenImage& level, const ReferenceView& view, int samples) {
     const Picture a = lit(view), b = lit(level, view);
     const auto part = [&](bool within) {
         return squared_error(antialiased(a, samples),
@@ -137,6 +136,23 @@ ViewError compare(const Level& shown, const ReferenceView& view, int samples) {
     for (std::size_t p = 0; p < level.covered.size(); ++p)
         error.covered += level.covered[p] || view.seen.covered[p];
     return error;
+}
+
+/// Of all views.
+PictureError summed(const std::vector<ViewError>& errors, std::span<const ReferenceView> views, int samples) {
+    ViewError sum;
+    for (const ViewError& error : errors) sum += error;
+    PictureError result;
+    result.antialiased = sum.antialiased.over(views.size());
+    result.one_sample = sum.one_sample.over(views.size());
+    result.psnr_covered = psnr(sum.covered ? sum.all.sum / (3.0 * double(sum.covered)) : 0);
+    result.psnr_inside = psnr(sum.inside.mean());
+    result.psnr_outline = psnr(sum.outline.mean());
+    result.psnr_filling = psnr(sum.filling.mean());
+    result.background_share = 1 - double(sum.covered) / (double(sum.all.values) / 3);
+    result.width = views.empty() ? 0 : views[0].camera.width / samples;
+    result.views = views.size();
+    return result;
 }
 
 } // namespace
@@ -202,23 +218,20 @@ Picture lit(const SeenImage& level, const ReferenceView& where) {
     return light_up(level, where.camera, &dark);
 }
 
+std::vector<PictureError> picture_errors(const Level& level, std::span<const ReferenceView> views,
+                                         std::span<const int> samples) {
+    std::vector<std::vector<ViewError>> errors(samples.size(), std::vector<ViewError>(views.size()));
+    tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t k) {
+        const SeenImage seen = rasterise(level, views[k].camera);
+        for (std::size_t i = 0; i < samples.size(); ++i) errors[i][k] = compare(seen, views[k], samples[i]);
+    });
+    std::vector<PictureError> results;
+    for (std::size_t i = 0; i < samples.size(); ++i) results.push_back(summed(errors[i], views, samples[i]));
+    return results;
+}
+
 PictureError picture_error(const Level& level, std::span<const ReferenceView> views, int samples) {
-    std::vector<ViewError> errors(views.size());
-    tbb::parallel_for(std::size_t(0), views.size(),
-                      [&](std::size_t k) { errors[k] = compare(level, views[k], samples); });
-    ViewError sum;
-    for (const ViewError& error : errors) sum += error;
-    PictureError result;
-    result.antialiased = sum.antialiased.over(views.size());
-    result.one_sample = sum.one_sample.over(views.size());
-    result.psnr_covered = psnr(sum.covered ? sum.all.sum / (3.0 * double(sum.covered)) : 0);
-    result.psnr_inside = psnr(sum.inside.mean());
-    result.psnr_outline = psnr(sum.outline.mean());
-    result.psnr_filling = psnr(sum.filling.mean());
-    result.background_share = 1 - double(sum.covered) / (double(sum.all.values) / 3);
-    result.width = views.empty() ? 0 : views[0].camera.width / samples;
-    result.views = views.size();
-    return result;
+    return picture_errors(level, views, {&samples, 1}).front();
 }
 
 } // namespace glcast::pictures

@@ -52,5 +52,8 @@ struct PictureError {
 /// Original and level are drawn with the same `samples` x `samples` samples a pixel, one in each pixel of the
 /// reference view, whose width they divide.
 PictureError picture_error(const Level& level, std::span<const ReferenceView> views, int samples = 1);
+/// The same for several numbers of samples.
+std::vector<PictureError> picture_errors(const Level& level, std::span<const ReferenceView> views,
+                                         std::span<const int> samples);
 
 } // namespace glcast::pictures

@@ -22,8 +22,8 @@
 namespace glcast {
 namespace {
 
-constexpr std::size_t points_a_side = 200'000;
-constexpr std::size_t glance_one_of = 20;
+constexpr std::size_t points_a_side = 100'000;
+constexpr std::size_t glance_one_of = 10;
 constexpr std::size_t piece = 2048; ///< points that follow one another: neighbours, mostly
 
 struct Probe {
@@ -183,9 +183,8 @@ double nearly_all_within(std::vector<float>& distances) {
     return distances[std::size_t(rank)];
 }
 
-/// Distance within which 99.9 % of the points are.
 template <class PointOf>
-double distance_of_nearly_all(std::size_t count, const PointOf& point, const SurfaceIndex& index) {
+Glance distances_of(std::size_t count, const PointOf& point, const SurfaceIndex& index) {
     std::vector<float> distances(count);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, piece), [&](const auto& range) {
         std::uint32_t near = index.nearest(point(range.begin())).triangle;
@@ -195,7 +194,9 @@ double distance_of_nearly_all(std::size_t count, const PointOf& point, const Sur
             distances[i] = float(found.distance);
         }
     });
-    return nearly_all_within(distances);
+    double sum = 0;
+    for (const float distance : distances) sum += distance;
+    return {count ? sum / double(count) : 0, nearly_all_within(distances)};
 }
 
 double mean(const std::vector<Differences>& all, float Differences::*what) {
@@ -246,14 +247,15 @@ struct LevelMeter::Impl {
         return error;
     }
 
-    double glance(const Level& level) const {
+    Glance glance(const Level& level) const {
         const SurfaceIndex level_index(level.mesh, SurfaceIndex::Tree::quick);
         const std::vector<AreaSample> on_level = points_of(level, points_a_side / glance_one_of);
-        const double there = distance_of_nearly_all(
+        const Glance there = distances_of(
             on_full.size() / glance_one_of, [&](std::size_t i) { return on_full[i * glance_one_of].at.position; },
             level_index);
-        return std::max(there, distance_of_nearly_all(
-                                   on_level.size(), [&](std::size_t i) { return on_level[i].position; }, index));
+        const Glance back = distances_of(
+            on_level.size(), [&](std::size_t i) { return on_level[i].position; }, index);
+        return {std::max(there.mean, back.mean), std::max(there.p999, back.p999)};
     }
 
     const Level& full;
@@ -264,7 +266,7 @@ struct LevelMeter::Impl {
 LevelMeter::LevelMeter(const Level& full) : impl(std::make_unique<Impl>(full)) {}
 LevelMeter::~LevelMeter() = default;
 LevelError LevelMeter::measure(const Level& level) const { return impl->measure(level); }
-double LevelMeter::glance(const Level& level) const { return impl->glance(level); }
+Glance LevelMeter::glance(const Level& level) const { return impl->glance(level); }
 
 LevelError measure_level(const Level& full, const Level& level) { return LevelMeter(full).measure(level); }
 

@@ -83,20 +83,30 @@ void Run::make_surface(const std::filesystem::path& capture) {
 
 /// What becomes of what the collapses leave. `may_move`: nothing binds its vertices to where they are.
 Level Run::draft_of(Mesh&& simplified, bool may_move) const {
+    Level level = shaped(std::move(simplified), may_move);
+    colour(level);
+    return level;
+}
+
+/// Its vertices are where they stay.
+Level Run::shaped(Mesh&& simplified, bool may_move) const {
     Level level;
     level.mesh = std::move(simplified);
     level.sample = full.sample;
-    if (is_full(level)) {
+    if (is_full(level))
         level.error = full.error;
-        return level;
-    }
-    if (!options.progressive.empty()) return level;
-    if (may_move) fit_outlines(level.mesh, captured);
+    else if (may_move && options.progressive.empty())
+        fit_outlines(level.mesh, captured);
+    return level;
+}
+
+/// Normals and colours by corner.
+void Run::colour(Level& level) const {
+    if (is_full(level) || !options.progressive.empty()) return;
     WedgeOptions corners;
     if (options.texture.kind == TextureChoice::Kind::sized)
         corners.colour = WedgeOptions::any_colour; // the texture has them
     fit_wedges(level, captured, corners);
-    return level;
 }
 
 void Run::add_full() { drafts.push_back({draft_of(Mesh(full.mesh), false), {"--full", true}}); }
@@ -133,15 +143,17 @@ void Run::add_sized(const std::vector<double>& pixels) {
     simplification = std::make_unique<Simplification>(
         full.mesh, SimplifyOptions{.refit = options.progressive.empty(), .checked = &full_check});
     search = std::make_unique<LevelSearch>(*simplification, *meter, full.mesh.triangles.size(),
-                                           [this](Mesh&& mesh) { return draft_of(std::move(mesh), true); });
-    std::vector<double> widths = pixels, limits;
+                                           [this](Mesh&& mesh, bool outlines) { return shaped(std::move(mesh), outlines); });
+    std::vector<double> widths = pixels;
+    std::vector<SizedLimit> limits;
     std::sort(widths.begin(), widths.end(), std::greater<>());
     for (const double width : widths) limits.push_back(error_within(width, made.info.n) * made.sample);
     std::vector<SizedLevel> found = search->coarsest_within(limits);
+    tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t k) { colour(found[k].level); });
     for (std::size_t k = 0; k < found.size(); ++k) {
         found[k].level.pixels = widths[k];
         drafts.push_back(
-            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k]});
+            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k].p999});
     }
     if (!options.progressive.empty()) bind_to_progressive_mesh();
 }
@@ -270,6 +282,7 @@ void Run::measure() {
         for (const std::size_t k : which) {
             Draft& draft = drafts[k];
             SizedLevel finer = search->finer({{}, draft.count});
+            colour(finer.level);
             finer.level.name = draft.level.name, finer.level.pixels = draft.level.pixels;
             draft.level = std::move(finer.level), draft.count = finer.count;
             if (has_textures()) texture(draft);

@@ -39,6 +39,8 @@ class Run {
         return level.mesh.triangles.size() == full.mesh.triangles.size();
     }
     Level draft_of(Mesh&& simplified, bool may_move) const;
+    Level shaped(Mesh&& simplified, bool may_move) const;
+    void colour(Level& level) const;
     void add_full();
     void add_counted();
     void add_sized(const std::vector<double>& pixels);

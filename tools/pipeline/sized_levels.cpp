@@ -8,13 +8,19 @@ namespace glcast {
 namespace {
 
 constexpr int default_levels = 4;
-constexpr double pixel_share = 1.0 / 8;            // of a pixel: the error of a level
-constexpr std::size_t fewest = 4;                  // triangles of a closed mesh
-constexpr double first_count = 65'536;             // triangles; sketches go down from here
-constexpr double sketch_step = 4;                  // of counts
-constexpr double sketch_close_enough = 1.4;        // of counts between which a limit lies
-constexpr double fit_gains = 1.1;                  // the 99.9 % error of what is not fitted, of what is
-constexpr double margin = 0.93;                    // of the limit: an estimate is no certificate
+// Of a pixel: errors of a level.
+constexpr double p999_share = 1.0 / 8;
+constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
+constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
+constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
+constexpr std::size_t fewest = 4;         // triangles of a closed mesh
+constexpr double first_count = 65'536;    // triangles; sketches go down from here
+constexpr double sketch_step = 4;         // of counts
+constexpr double sketch_close_enough = 2; // of counts between which a limit lies
+constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
+constexpr double mean_left = 0.65;        // by the fit, of outlines too
+// The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
+constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
@@ -27,71 +33,108 @@ std::vector<double> default_pixels(int n) {
     return pixels;
 }
 
-double error_within(double pixels, int n) { return n / pixels * pixel_share; }
+SizedLimit error_within(double pixels, int n) {
+    const double pixel = n / pixels, few = std::sqrt(std::min(1.0, pixels / outlines_below));
+    double mean = mean_share * few;
+    if (2 * pixels >= n) mean = std::min(mean, finest_mean_share * std::max(1.0, full_is_off_below / pixels));
+    return {pixel * p999_share, pixel * mean};
+}
 
-double LevelSearch::estimate(std::size_t count) {
+double LevelSearch::Estimate::share(const SizedLimit& limit) const {
+    return std::max(error.p999 / limit.p999, error.mean / limit.mean);
+}
+
+double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
     if (count >= all) { // the full surface itself
-        sketches.push_back({double(all), 0});
+        sketches.push_back({double(all), {}});
         return 0;
     }
     simplification.collapse_to(count);
     Level level;
-    level.mesh = simplification.level(count, false);
-    const double error = meter.glance(level);
-    const double made = double(level.mesh.triangles.size());
-    const auto at = std::lower_bound(sketches.begin(), sketches.end(), made,
+    level.mesh = simplification.level(count, FitWork::none);
+    const Glance error = meter.glance(level);
+    const double left = double(level.mesh.triangles.size()) <= coarse_count ? mean_left : 1;
+    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * left}};
+    const auto at = std::lower_bound(sketches.begin(), sketches.end(), made.count,
                                      [](const Estimate& e, double value) { return e.count < value; });
-    if (at == sketches.end() || at->count != made) sketches.insert(at, {made, error});
-    return error;
+    if (at == sketches.end() || at->count != made.count) sketches.insert(at, made);
+    return made.share(limit);
 }
 
-/// Until each limit lies between two counts that are near each other.
-void LevelSearch::sketch(const std::vector<double>& limits) {
+/// Until each limit, as it is before a fit, lies between two counts that are near each other.
+void LevelSearch::sketch(const std::vector<SizedLimit>& limits) {
     double count = std::min(first_count, double(all));
-    while (estimate(std::size_t(count)) > limits.front() && count < double(all))
+    while (estimate(std::size_t(count), limits.front()) > 1 && count < double(all))
         count = std::min(count * sketch_step, double(all));
     count = sketches.front().count;
-    while (sketches.front().error <= limits.back() && count > fewest) {
+    while (sketches.front().share(limits.back()) <= 1 && count > fewest) {
         count = std::max(std::floor(count / sketch_step), double(fewest));
-        estimate(std::size_t(count));
+        estimate(std::size_t(count), limits.back());
         if (simplification.least() > count) break; // no fewer can be
     }
-    for (const double limit : limits)
+    for (const SizedLimit& limit : limits)
         for (;;) {
             const auto fine = std::find_if(sketches.begin(), sketches.end(),
-                                           [&](const Estimate& e) { return e.error <= limit; });
+                                           [&](const Estimate& e) { return e.share(limit) <= 1; });
             if (fine == sketches.begin() || fine == sketches.end()) break;
             const double high = fine->count, low = std::prev(fine)->count;
             if (high <= sketch_close_enough * low || high - low < 8) break;
-            estimate(std::size_t(std::sqrt(high * low)));
+            estimate(std::size_t(std::sqrt(high * low)), limit);
         }
 }
 
-/// The count at which the sketched error is the limit.
-double LevelSearch::sketched(double limit) const {
-    const auto fine =
-        std::find_if(sketches.begin(), sketches.end(), [&](const Estimate& e) { return e.error <= limit; });
+/// The count at which the sketched error is such a share of the limit: it falls as a power of the count.
+double LevelSearch::sketched(const SizedLimit& limit, double share) const {
+    const auto fine = std::find_if(sketches.begin(), sketches.end(),
+                                   [&](const Estimate& e) { return e.share(limit) <= share; });
     if (fine == sketches.end()) return double(all);
     if (fine == sketches.begin()) return fine->count;
-    const Estimate &high = *fine, &low = *std::prev(fine);
-    if (!(high.error > 0)) return high.count;
-    const double share = std::log(low.error / limit) / std::log(low.error / high.error);
-    return low.count * std::pow(high.count / low.count, std::clamp(share, 0.0, 1.0));
+    const double high = fine->share(limit), low = std::prev(fine)->share(limit);
+    if (!(high > 0)) return fine->count;
+    const double part = std::log(low / share) / std::log(low / high);
+    return std::prev(fine)->count *
+           std::pow(fine->count / std::prev(fine)->count, std::clamp(part, 0.0, 1.0));
 }
 
-SizedLevel LevelSearch::make(std::size_t count) const { return {finish(simplification.level(count)), count}; }
+/// Where a fitted level is likely to be within.
+double LevelSearch::first_try(const SizedLimit& limit) const {
+    const double coarse = sketched(limit, coarse_gains);
+    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit, fine_gains));
+}
+
+SizedLevel LevelSearch::make(std::size_t count) const {
+    return {shape(simplification.level(count, FitWork::little), true), count};
+}
+
+double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const {
+    const Glance error = meter.glance(level);
+    return Estimate{0, {error.p999, error.mean}}.share(limit * margin);
+}
+
+/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left.
+SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double& share) const {
+    Mesh simplified = simplification.level(count, FitWork::little), plain = simplified;
+    SizedLevel made{shape(std::move(simplified), true), count};
+    share = share_of(made.level, limit);
+    if (share <= 1) return made;
+    SizedLevel without{shape(std::move(plain), false), count};
+    const double share_without = share_of(without.level, limit);
+    if (share_without >= share) return made;
+    share = share_without;
+    return without;
+}
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
 /// within that one more try is worth it.
-SizedLevel LevelSearch::search(double limit) const {
+SizedLevel LevelSearch::search(const SizedLimit& limit) const {
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
-    for (double count = std::max(sketched(limit * fit_gains), least);;) {
-        SizedLevel tried = make(std::size_t(std::min(count, double(all))));
-        if (tried.level.mesh.triangles.size() >= all)
-            return found.count ? std::move(found) : std::move(tried);
-        const double error = meter.glance(tried.level), share = error / (margin * limit);
+    for (double count = std::max(first_try(limit), least);;) {
+        double share = 0;
+        SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
+        if (level.level.mesh.triangles.size() >= all)
+            return found.count ? std::move(found) : std::move(level);
         if (share > 1) {
             if (found.count) return found;
             coarse = count;
@@ -99,17 +142,15 @@ SizedLevel LevelSearch::search(double limit) const {
             continue;
         }
         const bool first = found.count == 0;
-        found = std::move(tried);
+        found = std::move(level);
         count = std::floor(count * std::max(share * least_step, 1 / most_step));
         if (!first || share > far_within || count <= std::max(coarse, least)) return found;
     }
 }
 
-std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<double>& limits) {
+std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimit>& limits) {
     if (limits.empty()) return {};
-    std::vector<double> sought;
-    for (const double limit : limits) sought.push_back(limit * fit_gains);
-    sketch(sought);
+    sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
     tbb::parallel_for(std::size_t(0), limits.size(), [&](std::size_t k) { levels[k] = search(limits[k]); });
     return levels;

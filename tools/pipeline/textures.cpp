@@ -23,6 +23,10 @@ constexpr float light_of_normal = 0.37f;
 constexpr double visible = 0.007;
 constexpr double hardly_worse = 1.1; // times what the colours of corners are off
 
+// Texels average what is drawn: light of a mean normal is no mean of light, and in a small picture a texel
+// spans much that differs. Four instead of two a pixel bring geomview's t.off, at 32 pixels, from 37.8 to 43.8 dB.
+constexpr double texels_a_pixel = 2, texels_of_small = 4, small_picture = 64;
+
 double squared_difference(const Shown& shown, const CapturedPoint& captured, float brightest) {
     const glm::vec3 colour = shown.colour - captured.colour;
     // A normal that faces away is lit from behind, by either.
@@ -98,7 +102,9 @@ std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& 
         options.size = largest_texture / 2;
         options.smallest = true;
         if (level.pixels > 0)
-            options.texels_per_sample = std::min(1.0, 2 * level.pixels / captured.resolution());
+            options.texels_per_sample =
+                std::min(1.0, (level.pixels > small_picture ? texels_a_pixel : texels_of_small) *
+                                  level.pixels / captured.resolution());
     } else
         options.size = choice.size;
     try {

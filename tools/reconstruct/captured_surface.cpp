@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <type_traits>
 
 #include "tools/mesh/whole.h"
 #include "tools/reconstruct/attributes.h"
@@ -155,7 +156,7 @@ CapturedPoint CapturedSurface::seen_at(int axis, const glm::dvec3& at, const glm
                                        std::uint32_t hit) const {
     CapturedPoint out;
     out.found = true;
-    out.position = box.lo + (at + 0.5) * sample();
+    out.position = to_model(at);
     const Attribute seen = sample_point(*rays, at, plane);
     const AxisHits& hits = rays->axis[axis];
     const int side = plane[axis] > 0;
@@ -167,19 +168,12 @@ CapturedPoint CapturedSurface::seen_at(int axis, const glm::dvec3& at, const glm
     return out;
 }
 
-CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
-                                    double reach) const {
-    return find_from(from, along, facing, reach, false);
-}
-
-CapturedPoint CapturedSurface::look(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
-                                    double reach) const {
-    return find_from(from, along, facing, reach, true);
-}
-
-CapturedPoint CapturedSurface::find_from(const glm::dvec3& from, const glm::vec3& along,
-                                         const glm::vec3& facing, double reach, bool look_behind) const {
-    if (!rays) return {};
+/// What `seen` makes of the axis, place and plane that are found, or of what lies behind.
+template <class Seen>
+auto CapturedSurface::find_from(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                                double reach, bool look_behind, const Seen& seen) const {
+    using Result = decltype(seen(0, Plane{}));
+    if (!rays) return Result{};
     int order[3] = {0, 1, 2};
     std::sort(order, order + 3, [&](int a, int b) {
         const float fa = std::abs(facing[a]), fb = std::abs(facing[b]);
@@ -192,12 +186,34 @@ CapturedPoint CapturedSurface::find_from(const glm::dvec3& from, const glm::vec3
             const auto plane = axis == 0   ? Walk<0>(*rays, facing).run(start, along, reach, beside)
                                : axis == 1 ? Walk<1>(*rays, facing).run(start, along, reach, beside)
                                            : Walk<2>(*rays, facing).run(start, along, reach, beside);
-            if (look_behind && !beside)
-                if (const HitBehind there = nearest_closing(*rays, start, facing, axis, plane, reach))
-                    return shown_behind(start, facing, there);
-            if (plane) return seen_at(axis, plane->at, plane->normal, plane->hit);
+            if constexpr (std::is_same_v<Result, CapturedPoint>)
+                if (look_behind && !beside)
+                    if (const HitBehind there = nearest_closing(*rays, start, facing, axis, plane, reach))
+                        return shown_behind(start, facing, there);
+            if (plane) return seen(axis, *plane);
         }
-    return {};
+    return Result{};
+}
+
+CapturedPoint CapturedSurface::find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                                    double reach) const {
+    return find_from(from, along, facing, reach, false, [this](int axis, const Plane& plane) {
+        return seen_at(axis, plane.at, plane.normal, plane.hit);
+    });
+}
+
+std::optional<glm::dvec3> CapturedSurface::find_position(const glm::dvec3& from, const glm::vec3& along,
+                                                         const glm::vec3& facing, double reach) const {
+    return find_from(from, along, facing, reach, false, [this](int, const Plane& plane) {
+        return std::optional<glm::dvec3>(to_model(plane.at));
+    });
+}
+
+CapturedPoint CapturedSurface::look(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
+                                    double reach) const {
+    return find_from(from, along, facing, reach, true, [this](int axis, const Plane& plane) {
+        return seen_at(axis, plane.at, plane.normal, plane.hit);
+    });
 }
 
 CapturedPoint CapturedSurface::shown_behind(const glm::dvec3& start, const glm::vec3& facing,
@@ -207,7 +223,7 @@ CapturedPoint CapturedSurface::shown_behind(const glm::dvec3& start, const glm::
     out.found = out.behind = true;
     glm::dvec3 at = start;
     at[there.axis] = hits.depth[there.hit];
-    out.position = box.lo + (at + 0.5) * sample();
+    out.position = to_model(at);
     const int side = facing[there.axis] > 0;
     out.colour = unpack_colour(hits.colour_to(side, there.hit));
     const std::uint32_t normal = geometric_normals ? 0 : hits.normal_to(side, there.hit);

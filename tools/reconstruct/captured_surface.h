@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 
 #include "capture/view.h"
 
@@ -42,17 +43,22 @@ class CapturedSurface {
     /// agrees.
     CapturedPoint find(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                        double reach) const;
+    /// Its position alone, for half the work: empty where none is found.
+    std::optional<glm::dvec3> find_position(const glm::dvec3& from, const glm::vec3& along,
+                                            const glm::vec3& facing, double reach) const;
     /// The same for a texture: where the surface closes an opening that nobody drew shut, what lies behind
     /// it, as one sees it who looks in (behind.h).
     CapturedPoint look(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
                        double reach) const;
 
   private:
-    CapturedPoint find_from(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing,
-                            double reach, bool look_behind) const;
+    template <class Seen>
+    auto find_from(const glm::dvec3& from, const glm::vec3& along, const glm::vec3& facing, double reach,
+                   bool look_behind, const Seen& seen) const;
     CapturedPoint shown_behind(const glm::dvec3& start, const glm::vec3& facing,
                                const HitBehind& there) const; ///< samples
     CapturedPoint seen_at(int axis, const glm::dvec3& at, const glm::vec3& plane, std::uint32_t hit) const;
+    glm::dvec3 to_model(const glm::dvec3& at) const { return box.lo + (at + 0.5) * sample(); }
     std::shared_ptr<const Rays> rays;
     Box box;
     bool geometric_normals = false;

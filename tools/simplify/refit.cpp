@@ -13,11 +13,14 @@
 namespace glcast {
 namespace {
 
+struct Amount {
+    std::size_t samples_per_vertex, most_walks, most_rounds;
+};
 // Measured on teapots and spheres: four times the samples gain 2 %, twice the rounds 3 %.
-constexpr std::size_t samples_per_vertex = 48, least_samples = 1'500, most_samples = 200'000;
-constexpr std::size_t too_few_per_vertex = 12;
-constexpr std::size_t most_walks = 1'200'000; // about a second
-constexpr std::size_t most_rounds = 24, most_idle_rounds = 4;
+constexpr Amount full{48, 1'200'000, 24}; // about a second
+constexpr Amount little{12, 60'000, 4};
+constexpr std::size_t least_samples = 1'500, most_samples = 200'000;
+constexpr std::size_t too_few_per_vertex = 12, most_idle_rounds = 4;
 constexpr double worth_a_round = 0.002; // of the squared distances
 
 std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint32_t>& became,
@@ -34,10 +37,13 @@ std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint3
 
 } // namespace
 
-void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const SurfaceWalk& along) {
+void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const SurfaceWalk& along,
+           FitWork work) {
+    const Amount amount = work == FitWork::full ? full : little;
     const std::size_t vertices = remainder.positions.size();
-    const std::size_t count = std::clamp(samples_per_vertex * vertices, least_samples, most_samples);
-    if (count < too_few_per_vertex * vertices) return;
+    const std::size_t count = std::clamp(amount.samples_per_vertex * vertices, least_samples, most_samples);
+    const std::size_t rounds = std::min(amount.most_rounds, amount.most_walks / count);
+    if (work == FitWork::none || rounds == 0 || count < too_few_per_vertex * vertices) return;
     Mesh level;
     level.positions = remainder.positions;
     level.triangles = remainder.triangles;
@@ -45,7 +51,6 @@ void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const Su
     if (samples.empty()) return;
     LevelFit fit(level, remainder.closed, std::move(samples), std::sqrt(surface.total() / double(count)),
                  along);
-    const std::size_t rounds = std::min(most_rounds, most_walks / count);
     double least =
         std::numeric_limits<double>::infinity(); // what a round makes of it may be worse: the best is kept
     for (std::size_t round = 0, idle = 0;; ++round) {

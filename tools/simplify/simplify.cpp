@@ -162,17 +162,17 @@ void Simplification::collapse_to(std::size_t triangles) {
 
 std::size_t Simplification::least() const { return impl->least; }
 
-Mesh Simplification::level(std::size_t triangles, bool fitted) const {
+Mesh Simplification::level(std::size_t triangles, FitWork fit) const {
     if (triangles >= impl->have.triangles) return impl->mesh;
     SimplifyOptions own = impl->options;
     own.checked = &impl->have;
     std::optional<Collapser::Remainder> remainder = impl->collapser->remainder_at({triangles, SIZE_MAX});
     if (!remainder) {
-        own.refit = own.refit && fitted;
+        own.refit = own.refit && fit != FitWork::none;
         own.normal_weight = weights_of(impl->options).normal;
         return simplify(impl->mesh, {SimplifyTarget::Unit::triangles, double(triangles)}, own);
     }
-    if (fitted && own.refit) refit(*remainder, *impl->area, *impl->walk);
+    if (own.refit) refit(*remainder, *impl->area, *impl->walk, fit);
     return finished(std::move(*remainder), *impl->walk, impl->mesh.normals, own);
 }
 

@@ -17,6 +17,9 @@ struct SimplifyTarget {
     double value = 0; ///< ratio: share of the triangles to keep, 0..1
 };
 
+/// How much work a fit may be: `little` is a tenth of it, for levels that stand by their 99.9 % error.
+enum class FitWork { none, little, full };
+
 struct SimplifyOptions {
     /// A two-manifold with boundaries is taken too; they keep their shape as far as the target allows.
     bool allow_boundaries = false;
@@ -62,8 +65,8 @@ class Simplification {
 
     /// A level with at most so many triangles, not fewer than least(). Levels may be taken on several threads at once,
     /// but not while collapse_to() runs. One so fine that a part of the run would have to be undone for it is made by a
-    /// run of its own. `fitted`: laid along the surface, where the options say so; without, in some milliseconds.
-    Mesh level(std::size_t triangles, bool fitted = true) const;
+    /// run of its own. Laid along the surface with so much work, where the options say so; without, in some milliseconds.
+    Mesh level(std::size_t triangles, FitWork fit = FitWork::full) const;
 
   private:
     struct Impl;

@@ -122,9 +122,10 @@ class Residuals {
     /// Height of the captured surface over a point; unknown where what is found lies beside, as at the rim of
     /// what a view covers.
     std::optional<double> height_over(const glm::dvec3& at, const glm::dvec3& up, double most) const {
-        const CapturedPoint found = captured.find(at * captured.sample(), glm::vec3(up), glm::vec3(up), most);
-        if (!found.found) return std::nullopt;
-        const glm::dvec3 off = found.position / captured.sample() - at;
+        const auto found =
+            captured.find_position(at * captured.sample(), glm::vec3(up), glm::vec3(up), most);
+        if (!found) return std::nullopt;
+        const glm::dvec3 off = *found / captured.sample() - at;
         const double height = glm::dot(off, up);
         if (glm::length(off - height * up) > beside) return std::nullopt;
         return height;
