@@ -149,13 +149,24 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
     {
         ForcedTable forced(gl, facts(pass, target, learning), mirrored(pass));
         ++draw_count;
-        draw(forced.table());
+        draw(forced.table(), sought(pass, learning));
         own_program |= forced.state.saw_own_program;
         unblended = forced.state.saw_blending || forced.state.depth_clears > 1;
     }
     gl.RenderMode(GL_RENDER);
     gl.Finish();
     swallow_errors(gl);
+}
+
+/// What is drawn nearer by its offset lies at no depth of its own.
+Sought PassRunner::sought(const Pass& pass, bool learning) const {
+    Sought sought;
+    sought.eye_to_capture = eye_to_capture;
+    if (learning) return sought;
+    const bool shifts = pass.offsets && offset_levels.several();
+    if (!shifts) sought.open = pass.open;
+    if (pass.polygon_mode == GL_POINT && !shifts) sought.corners = &pass.box;
+    return sought;
 }
 
 void PassRunner::set_state(const Pass& pass, const Target& target) const {

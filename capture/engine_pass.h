@@ -41,6 +41,7 @@ struct Pass {
     GLenum polygon_mode = GL_FILL;
     double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
     std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
+    const OpenTiles* open = nullptr;    ///< where and how deep something may be found; null: everywhere
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
     bool offsets = true;                ///< coplanar surfaces are told apart (depth_offset.h)
     bool outermost = false;             ///< of what is seen from outside; else there may be more in front
@@ -62,6 +63,7 @@ class PassRunner {
   private:
     void draw_once(const Pass& pass, const Target& target, bool learning);
     PassFacts facts(const Pass& pass, const Target& target, bool learning);
+    Sought sought(const Pass& pass, bool learning) const;
     glm::dmat4 projection(const Pass& pass) const;
     void set_state(const Pass& pass, const Target& target) const;
     void set_depth_rule(const Pass& pass) const;

@@ -17,8 +17,12 @@ namespace {
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
-    GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what)
-        : DrawGate(gl), scene(of), group(index), wanted(what) {}
+    GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what, const Sought& sought_for,
+                DrawPlaces* all_places)
+        : DrawGate(gl), scene(of), group(index), wanted(what), sought(sought_for), places(all_places) {
+        if (!sought.open && !sought.corners) places = nullptr;
+        if (places) places->begin(sought.eye_to_capture);
+    }
 
     bool blends(bool on) override {
         blending = on;
@@ -28,13 +32,15 @@ class GroupFilter final : public DrawGate {
         return wanted.transparent != Transparent::by_alpha;
     }
 
-    bool keep(GLenum, long) override {
+    bool keep(GLenum mode, long) override {
+        as_points = false;
+        parts.reset();
         if (next >= scene.draws.size()) return false;
         const Draw& draw = scene.draws[next++];
         if (draw.group != group) return false;
         if (wanted.transparent == Transparent::skip && blending) return false;
         if (wanted.everything) return true;
-        if (!wants(draw)) return false;
+        if (!wants(draw) || !may_be_found(draw, mode)) return false;
         if (draw.eye_map >= 0 || draw.nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
         return true;
@@ -48,6 +54,32 @@ class GroupFilter final : public DrawGate {
         return wanted.solid && is_solid(draw, scene.groups[group]);
     }
 
+    /// Says, too, what is to be drawn of it, and how.
+    bool may_be_found(const Draw& draw, GLenum mode) {
+        const record::DrawShape* shape = places && has_faces(mode) ? record::shape_of_draw() : nullptr;
+        if (!shape) return true;
+        const DrawPlace* place = places->of(next - 1, [&] {
+            glm::dmat4 to_eye(1.0);
+            inner.GetDoublev(GL_MODELVIEW_MATRIX, glm::value_ptr(to_eye));
+            if (draw.eye_map >= 0) to_eye = scene.eye_maps[draw.eye_map].apply(to_eye);
+            return find_place(*shape, to_eye, sought.eye_to_capture);
+        });
+        if (!place) return true;
+        if (sought.open) parts = seen_parts(*place, *sought.open);
+        if (parts && parts->empty()) return false;
+        as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) && points_are_the_same();
+        return true;
+    }
+
+    /// As GL_POINTS, the vertices of polygons are neither clipped nor tested otherwise than as corners.
+    bool points_are_the_same() const {
+        GLint planes = 6;
+        inner.GetIntegerv(GL_MAX_CLIP_PLANES, &planes);
+        for (GLint i = 0; i < planes; ++i)
+            if (inner.IsEnabled(GL_CLIP_PLANE0 + static_cast<GLenum>(i))) return false;
+        return !inner.IsEnabled(GL_ALPHA_TEST);
+    }
+
     static bool is_solid(const Draw& draw, const Group& of) {
         if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
         if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors])
@@ -59,6 +91,8 @@ class GroupFilter final : public DrawGate {
     const Scene& scene;
     const int group;
     const Wanted wanted;
+    const Sought sought;
+    DrawPlaces* places;
     EyeSpace eye_space{inner};
     std::size_t next = 0;
     bool blending = false;
@@ -92,8 +126,8 @@ long cutting_draws(const std::vector<Scene>& scenes, const Group& group) {
 }
 
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
-                  const GlTable& gl) {
-    GroupFilter filter(gl, scene, group, wanted);
+                  const GlTable& gl, const Sought& sought, DrawPlaces* places) {
+    GroupFilter filter(gl, scene, group, wanted, sought, places);
     record::replay(frame, gated_table(filter));
 }
 

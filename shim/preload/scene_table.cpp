@@ -122,6 +122,30 @@ void APIENTRY end() {
     gate->drawn();
 }
 
+/// `draw(mode, first, count)` for each part of the draw that is to be drawn; `first` counts from the draw's own.
+template <class Draw> void draw_parts(GLenum mode, GLsizei count, const Draw& draw) {
+    if (!gate->keep(mode, primitive_count(mode, count))) return;
+    const GLenum drawn = gate->as_points ? GL_POINTS : mode;
+    if (!gate->parts)
+        draw(drawn, 0, count);
+    else
+        for (const ElementRange& part : *gate->parts) draw(drawn, part.first, static_cast<GLsizei>(part.count));
+    gate->drawn();
+}
+
+void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
+    draw_parts(mode, count, [first](GLenum drawn, std::uint32_t at, GLsizei number) {
+        gate->inner.DrawArrays(drawn, first + static_cast<GLint>(at), number);
+    });
+}
+
+void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
+    const std::size_t bytes = type == GL_UNSIGNED_BYTE ? 1 : type == GL_UNSIGNED_SHORT ? 2 : 4;
+    draw_parts(mode, count, [=](GLenum drawn, std::uint32_t at, GLsizei number) {
+        gate->inner.DrawElements(drawn, number, type, static_cast<const std::byte*>(indices) + at * bytes);
+    });
+}
+
 /// Mesh modes as those of glBegin.
 GLenum drawn_as(GLenum mesh_mode) {
     return mesh_mode == GL_FILL ? GL_TRIANGLES : mesh_mode == GL_LINE ? GL_LINES : GL_POINTS;
@@ -182,9 +206,7 @@ void APIENTRY push_matrix() {
 
 // name, argument with the number of vertices, argument with the number of instances
 #define GLCAST_PLAIN_DRAWS(X)                                                                                \
-    X(DrawArrays, 2, -1)                                                                                     \
     X(DrawArraysEXT, 2, -1)                                                                                  \
-    X(DrawElements, 1, -1)                                                                                   \
     X(DrawRangeElements, 3, -1)                                                                              \
     X(DrawRangeElementsEXT, 3, -1)                                                                           \
     X(DrawElementsBaseVertex, 1, -1)                                                                         \
@@ -272,6 +294,8 @@ void install_draws(GlTable& table) {
 #undef GLCAST_INSTALL
     table.Begin = begin;
     table.End = end;
+    table.DrawArrays = draw_arrays;
+    table.DrawElements = draw_elements;
     table.EvalMesh1 = eval_mesh_1;
     table.EvalMesh2 = eval_mesh_2;
 }

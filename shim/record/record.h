@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "capture/gl/gl_table.h"
 
@@ -76,6 +77,33 @@ void delete_copies(const Frame& frame, const GlTable& gl);
 /// of textures in its bindings and on its stack of attributes. These would come back at the next replay, to which
 /// the program may have changed them, and contexts share what comes back: parameters of textures.
 void let_go(const Frame& frame, const GlTable& gl);
+
+/// Where vertices lie, in the program's own coordinates. Unknown where lo > hi.
+struct Extent {
+    float lo[3] = {1, 1, 1}, hi[3] = {-1, -1, -1};
+    bool is_known() const { return lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2]; }
+};
+
+/// A draw as it is played, with glDrawArrays or glDrawElements.
+struct DrawShape {
+    Extent extent; ///< of all its vertices
+    bool is_whole; ///< no vertex is left over that makes no primitive
+    /// Whole primitives that may be drawn for themselves, in order: `count` elements (vertices or indices) from the
+    /// `first`th on. Of strips, the last two are those that the next part begins with.
+    struct Part {
+        std::uint32_t first, count;
+        Extent extent;
+    };
+    std::vector<Part> parts; ///< empty where it is drawn as one
+};
+
+/// Before the first replay: what is drawn between glBegin and glEnd becomes arrays, where the same comes of that to the
+/// bit, so that replays need not make each call again. Memory counts as a recording; what does not fit stays as it is.
+void prepare(const Frame& frame);
+
+/// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn. Null:
+/// nothing is known of it.
+const DrawShape* shape_of_draw();
 
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
