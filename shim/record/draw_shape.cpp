@@ -9,7 +9,7 @@ namespace glcast::record {
 namespace {
 
 /// Of a part; whole triangles and quads.
-constexpr std::uint32_t part_elements = 192;
+constexpr std::uint32_t part_elements = 48;
 
 /// The elements after which a draw of the mode may be cut, and those that the next part needs again. Nothing where it may
 /// not: a fan, or lines, whose stipple goes on.
