@@ -3,10 +3,18 @@
 #include <glm/mat4x4.hpp>
 #include <vector>
 
-#include "capture/pixel_rect.h"
 #include "capture/view.h"
 
 namespace glcast {
+
+/// Where filled faces lie in the capture frame.
+struct Place {
+    glm::dvec3 lo, hi; ///< a box that holds them, what a driver rounds off included
+    /// Along each axis: how much a face rises in depth over a distance across, at most, and how narrow one is
+    /// seen, at least. A driver moves corners by parts of a pixel, and carries depth on beyond the face by as
+    /// much.
+    glm::dvec3 slope, narrowest;
+};
 
 /// An image cut into square tiles. Each is closed, or open to what lies between two depths.
 class OpenTiles {
@@ -14,7 +22,7 @@ class OpenTiles {
     OpenTiles(const Box& box, Axis axis, int n);
 
     void close_all();
-    /// Depths 0..1 through the box, of a pixel that is looked for. They add up.
+    /// Depths 0..1 through the box in which something of a pixel is looked for. They add up.
     void open(std::size_t pixel, float near, float far) {
         const int x = static_cast<int>(pixel % static_cast<std::size_t>(n)),
                   y = static_cast<int>(pixel / static_cast<std::size_t>(n));
@@ -22,22 +30,24 @@ class OpenTiles {
         if (near < tile.near) tile.near = near;
         if (far > tile.far) tile.far = far;
     }
-    /// All depths of the tiles that are open.
-    void open_depths() { all_depths = true; }
 
-    /// May anything of a box in the capture frame be seen in an open tile? A pixel across and a sample of depth are
-    /// granted.
-    bool meet(const glm::dvec3& lo, const glm::dvec3& hi) const;
+    /// May a fragment of these faces lie in an open tile, at a depth that is looked for there?
+    bool meet(const Place& place) const;
 
   private:
     struct Tile {
         float near, far;
     };
+    struct Span {
+        int first, last;
+    };
+    Span tiles_between(double lo, double hi, int axis) const;
+
     const Box box;
     const ImageAxes axes;
     const int n, size;
     const std::size_t across;
-    bool all_depths = false;
+    double rounding; ///< of a driver, in boxes
     std::vector<Tile> tiles;
 };
 
@@ -45,7 +55,8 @@ struct Sought {
     glm::dmat4 eye_to_capture{1.0};
     /// Null: everything counts.
     const OpenTiles* open = nullptr;
-    /// Polygons are drawn as points, and what lies in this box may be drawn as GL_POINTS at once. Null: as it is.
+    /// Polygons are drawn as points, and what lies in this box may be drawn as GL_POINTS at once. Null: as it
+    /// is.
     const Box* corners = nullptr;
 };
 

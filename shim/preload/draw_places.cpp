@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace glcast::preload {
 namespace {
@@ -15,49 +16,93 @@ glm::dmat4 magnitudes(const glm::dmat4& matrix) {
     return result;
 }
 
-struct ToCapture {
-    glm::dmat4 whole, magnitude;
+/// The place of one part, face by face.
+class PlaceFinder {
+  public:
+    explicit PlaceFinder(const std::vector<glm::dvec3>& corners) : at(corners) {}
 
-    ToCapture(const glm::dmat4& to_eye, const glm::dmat4& eye_to_capture)
-        : whole(eye_to_capture * to_eye), magnitude(magnitudes(eye_to_capture) * magnitudes(to_eye)) {}
-
-    bool is_affine() const {
-        return whole[0][3] == 0 && whole[1][3] == 0 && whole[2][3] == 0 && whole[3][3] == 1;
-    }
-
-    std::optional<Place> place(const record::Extent& extent) const {
-        if (!extent.is_known()) return std::nullopt;
-        Place place{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-        glm::dvec4 largest(0, 0, 0, 1);
-        for (int corner = 0; corner < 8; ++corner) {
-            glm::dvec4 p(0, 0, 0, 1);
-            for (int i = 0; i < 3; ++i) {
-                p[i] = corner >> i & 1 ? extent.hi[i] : extent.lo[i];
-                largest[i] = std::max(largest[i], std::abs(p[i]));
-            }
-            const glm::dvec3 at(whole * p);
-            place.lo = glm::min(place.lo, at), place.hi = glm::max(place.hi, at);
-        }
-        const glm::dvec3 slack = rounding * glm::dvec3(magnitude * largest);
+    Place find(GLenum mode, const glm::dvec3& slack) {
+        for (const glm::dvec3& p : at) place.lo = glm::min(place.lo, p), place.hi = glm::max(place.hi, p);
         place.lo -= slack, place.hi += slack;
-        for (int i = 0; i < 3; ++i)
-            if (!std::isfinite(place.lo[i]) || !std::isfinite(place.hi[i])) return std::nullopt;
+        faces(mode);
         return place;
     }
+
+  private:
+    void faces(GLenum mode) {
+        const std::size_t n = at.size();
+        switch (mode) {
+        case GL_TRIANGLES:
+            for (std::size_t i = 0; i + 2 < n; i += 3) triangle(i, i + 1, i + 2);
+            break;
+        case GL_QUADS:
+            for (std::size_t i = 0; i + 3 < n; i += 4) quad(i, i + 1, i + 2, i + 3);
+            break;
+        case GL_TRIANGLE_STRIP:
+            for (std::size_t i = 0; i + 2 < n; ++i) triangle(i, i + 1, i + 2);
+            break;
+        case GL_QUAD_STRIP:
+            for (std::size_t i = 0; i + 3 < n; i += 2) quad(i, i + 1, i + 3, i + 2);
+            break;
+        case GL_TRIANGLE_FAN:
+            for (std::size_t i = 1; i + 1 < n; ++i) triangle(0, i, i + 1);
+            break;
+        default: // a driver may cut it as it likes
+            place.slope = glm::dvec3(INFINITY);
+        }
+    }
+
+    /// Which way a driver cuts it is not known.
+    void quad(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+        triangle(a, b, c), triangle(a, c, d), triangle(a, b, d), triangle(b, c, d);
+    }
+
+    void triangle(std::size_t a, std::size_t b, std::size_t c) {
+        const glm::dvec3 ab = at[b] - at[a], ac = at[c] - at[a], bc = at[c] - at[b];
+        const double longest = std::sqrt(std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)}));
+        const glm::dvec3 normal = glm::abs(glm::cross(ab, ac));
+        const double length = glm::length(normal);
+        for (int i = 0; i < 3; ++i) {
+            const double slope = normal[i] > 0 ? length / normal[i] : INFINITY; // a little more than it is
+            place.slope[i] = std::max(place.slope[i], slope);
+            place.narrowest[i] = std::min(place.narrowest[i], longest > 0 ? normal[i] / longest : 0);
+        }
+    }
+
+    const std::vector<glm::dvec3>& at;
+    Place place{glm::dvec3(INFINITY), glm::dvec3(-INFINITY), glm::dvec3(0), glm::dvec3(INFINITY)};
 };
+
+bool is_finite(const Place& place) {
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(place.lo[i]) || !std::isfinite(place.hi[i])) return false;
+    return true;
+}
 
 } // namespace
 
 std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture) {
-    const ToCapture to_capture(to_eye, eye_to_capture);
-    const auto all = to_capture.place(shape.extent);
-    if (!all || !to_capture.is_affine()) return std::nullopt;
-    DrawPlace result{*all, {}, shape.is_whole};
+    const glm::dmat4 whole = eye_to_capture * to_eye;
+    const bool is_affine = whole[0][3] == 0 && whole[1][3] == 0 && whole[2][3] == 0 && whole[3][3] == 1;
+    if (!shape.is_known || !is_affine) return std::nullopt;
+    const glm::dmat4 magnitude = magnitudes(eye_to_capture) * magnitudes(to_eye);
+    DrawPlace result{{}, shape.is_whole};
+    std::vector<float> xyz;
+    std::vector<glm::dvec3> corners;
     for (const auto& part : shape.parts) {
-        const auto place = to_capture.place(part.extent);
-        if (!place) return std::nullopt;
-        result.parts.push_back({part.first - shape.parts.front().first, part.count, *place});
+        record::read_positions(part, xyz);
+        corners.clear();
+        glm::dvec3 largest(0);
+        for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+            const glm::dvec3 p(xyz[i], xyz[i + 1], xyz[i + 2]);
+            largest = glm::max(largest, glm::abs(p));
+            corners.emplace_back(whole * glm::dvec4(p, 1));
+        }
+        const glm::dvec3 slack = rounding * glm::dvec3(magnitude * glm::dvec4(largest, 1));
+        const Place place = PlaceFinder(corners).find(shape.mode, slack);
+        if (!is_finite(place)) return std::nullopt;
+        result.parts.push_back({part, place});
     }
     return result;
 }
@@ -67,25 +112,25 @@ void DrawPlaces::begin(const glm::dmat4& eye_to_capture) {
     frame = eye_to_capture;
 }
 
-std::optional<std::vector<ElementRange>> seen_parts(const DrawPlace& place, const OpenTiles& open) {
-    std::vector<ElementRange> seen;
-    if (!open.meet(place.all.lo, place.all.hi)) return seen;
-    if (place.parts.empty()) return std::nullopt;
-    for (const auto& part : place.parts) {
-        if (!open.meet(part.place.lo, part.place.hi)) continue;
-        const std::uint32_t end = part.first + part.count;
+std::vector<record::DrawShape::Part> seen_parts(const DrawPlace& place, const OpenTiles& open) {
+    std::vector<record::DrawShape::Part> seen;
+    for (const DrawPlace::Part& part : place.parts) {
+        if (!open.meet(part.place)) continue;
         if (!seen.empty() && seen.back().first + seen.back().count >= part.first)
-            seen.back().count = end - seen.back().first;
+            seen.back().count = part.first + part.count - seen.back().first;
         else
-            seen.push_back({part.first, part.count});
+            seen.push_back(part);
     }
     return seen;
 }
 
 bool lies_inside(const DrawPlace& place, const Box& box) {
-    const double margin = rounding * (box.size + std::max({std::abs(box.lo.x), std::abs(box.lo.y), std::abs(box.lo.z)}));
-    for (int i = 0; i < 3; ++i)
-        if (place.all.lo[i] <= box.lo[i] + margin || place.all.hi[i] >= box.lo[i] + box.size - margin) return false;
+    const double margin =
+        rounding * (box.size + std::max({std::abs(box.lo.x), std::abs(box.lo.y), std::abs(box.lo.z)}));
+    for (const DrawPlace::Part& part : place.parts)
+        for (int i = 0; i < 3; ++i)
+            if (part.place.lo[i] <= box.lo[i] + margin || part.place.hi[i] >= box.lo[i] + box.size - margin)
+                return false;
     return true;
 }
 

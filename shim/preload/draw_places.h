@@ -1,5 +1,5 @@
-// Where the draws of a frame lie in the capture frame, so that a pass leaves out what it cannot find there. A frame is
-// drawn hundreds of times, and most of these look for a few pixels.
+// Where the draws of a frame lie in the capture frame, so that a pass leaves out what it cannot find there. A
+// frame is drawn hundreds of times, and most of these look for a few pixels.
 #pragma once
 #include <glm/mat4x4.hpp>
 #include <memory>
@@ -11,26 +11,21 @@
 
 namespace glcast::preload {
 
-/// Of a draw or a part of one: a box in the capture frame that holds it, the rounding of a driver included.
-struct Place {
-    glm::dvec3 lo, hi;
-};
-
 struct DrawPlace {
-    Place all;
-    struct Part {
-        std::uint32_t first, count; ///< elements, from the first of the draw on
+    struct Part : record::DrawShape::Part {
         Place place;
     };
     std::vector<Part> parts; ///< as in record::DrawShape
     bool is_whole;
 };
 
-/// Nothing where it is not known. `to_eye`: from the draw's coordinates to eye space.
+/// Of the draw that is played. Nothing where it is not known. `to_eye`: from the draw's coordinates to eye
+/// space.
 std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture);
 
-/// Of all draws of a frame, by number; found when they are first asked for, for they are the same in each replay.
+/// Of all draws of a frame, by number; found when they are first asked for, for they are the same in each
+/// replay.
 class DrawPlaces {
   public:
     /// Forgets all where the capture frame is another one.
@@ -48,14 +43,8 @@ class DrawPlaces {
     std::vector<std::unique_ptr<std::optional<DrawPlace>>> known;
 };
 
-/// Consecutive elements of a draw.
-struct ElementRange {
-    std::uint32_t first, count;
-};
-
-/// The parts of the draw that may be seen in an open tile, neighbours joined. Nothing: the whole draw is to be drawn
-/// as it is. Empty: none of it.
-std::optional<std::vector<ElementRange>> seen_parts(const DrawPlace& place, const OpenTiles& open);
+/// The parts of the draw that may be seen in an open tile, neighbours joined.
+std::vector<record::DrawShape::Part> seen_parts(const DrawPlace& place, const OpenTiles& open);
 
 /// Is all of it inside the box, so that nothing of it is clipped?
 bool lies_inside(const DrawPlace& place, const Box& box);

@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <utility>
 
 #include "shim/preload/eye_space.h"
 #include "shim/preload/scene_table.h"
@@ -65,8 +66,11 @@ class GroupFilter final : public DrawGate {
             return find_place(*shape, to_eye, sought.eye_to_capture);
         });
         if (!place) return true;
-        if (sought.open) parts = seen_parts(*place, *sought.open);
-        if (parts && parts->empty()) return false;
+        if (sought.open) {
+            auto seen = seen_parts(*place, *sought.open);
+            if (seen.empty()) return false;
+            if (place->parts.size() > 1) parts = std::move(seen);
+        }
         as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) && points_are_the_same();
         return true;
     }

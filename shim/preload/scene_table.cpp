@@ -122,28 +122,48 @@ void APIENTRY end() {
     gate->drawn();
 }
 
-/// `draw(mode, first, count)` for each part of the draw that is to be drawn; `first` counts from the draw's own.
-template <class Draw> void draw_parts(GLenum mode, GLsizei count, const Draw& draw) {
+/// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first element,
+/// `many(mode, firsts, counts, number)` several such.
+template <class One, class Many> void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
     if (!gate->keep(mode, primitive_count(mode, count))) return;
     const GLenum drawn = gate->as_points ? GL_POINTS : mode;
-    if (!gate->parts)
-        draw(drawn, 0, count);
-    else
-        for (const ElementRange& part : *gate->parts) draw(drawn, part.first, static_cast<GLsizei>(part.count));
+    if (!gate->parts) {
+        one(drawn, 0, count);
+    } else if (gate->parts->size() == 1) {
+        one(drawn, static_cast<GLint>(gate->parts->front().first), static_cast<GLsizei>(gate->parts->front().count));
+    } else {
+        static thread_local std::vector<GLint> firsts;
+        static thread_local std::vector<GLsizei> counts;
+        firsts.clear(), counts.clear();
+        for (const auto& part : *gate->parts)
+            firsts.push_back(static_cast<GLint>(part.first)), counts.push_back(static_cast<GLsizei>(part.count));
+        many(drawn, firsts, counts);
+    }
     gate->drawn();
 }
 
 void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
-    draw_parts(mode, count, [first](GLenum drawn, std::uint32_t at, GLsizei number) {
-        gate->inner.DrawArrays(drawn, first + static_cast<GLint>(at), number);
-    });
+    const GlTable& gl = gate->inner;
+    draw_parts(
+        mode, count, [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawArrays(drawn, first + at, number); },
+        [&](GLenum drawn, std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
+            for (GLint& at : firsts) at += first;
+            gl.MultiDrawArrays(drawn, firsts.data(), counts.data(), static_cast<GLsizei>(counts.size()));
+        });
 }
 
 void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
-    const std::size_t bytes = type == GL_UNSIGNED_BYTE ? 1 : type == GL_UNSIGNED_SHORT ? 2 : 4;
-    draw_parts(mode, count, [=](GLenum drawn, std::uint32_t at, GLsizei number) {
-        gate->inner.DrawElements(drawn, number, type, static_cast<const std::byte*>(indices) + at * bytes);
-    });
+    const GlTable& gl = gate->inner;
+    const GLint bytes = type == GL_UNSIGNED_BYTE ? 1 : type == GL_UNSIGNED_SHORT ? 2 : 4;
+    const auto from = [&](GLint at) -> const void* {
+        return static_cast<const std::byte*>(indices) + std::ptrdiff_t(at) * bytes;
+    };
+    draw_parts(
+        mode, count,
+        [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawElements(drawn, number, type, from(at)); },
+        [&](GLenum drawn, const std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
+            for (std::size_t i = 0; i < counts.size(); ++i) gl.DrawElements(drawn, counts[i], type, from(firsts[i]));
+        });
 }
 
 /// Mesh modes as those of glBegin.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capture/gl/gl_table.h"
-#include "shim/preload/draw_places.h"
+#include "shim/record/record.h"
 
 namespace glcast::preload {
 
@@ -44,7 +44,7 @@ class DrawGate {
 
     // Of the draw that was kept, where it is glDrawArrays or glDrawElements.
     bool as_points = false;                         ///< its vertices are drawn as GL_POINTS
-    std::optional<std::vector<ElementRange>> parts; ///< what is drawn of it; nothing: all
+    std::optional<std::vector<record::DrawShape::Part>> parts; ///< what is drawn of it; nothing: all
 
     // Of the glBegin that is open; the table's functions keep these.
     bool swallowing = false;

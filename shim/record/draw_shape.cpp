@@ -11,8 +11,8 @@ namespace {
 /// Of a part; whole triangles and quads.
 constexpr std::uint32_t part_elements = 48;
 
-/// The elements after which a draw of the mode may be cut, and those that the next part needs again. Nothing where it may
-/// not: a fan, or lines, whose stipple goes on.
+/// The elements after which a draw of the mode may be cut, and those that the next part needs again. Nothing
+/// where it may not: a fan, or lines, whose stipple goes on.
 struct Cut {
     std::uint32_t step, overlap;
 };
@@ -46,15 +46,6 @@ bool is_whole(GLenum mode, std::uint32_t count) {
     }
 }
 
-void include(Extent& extent, bool& any, const double (&p)[3]) {
-    for (int i = 0; i < 3; ++i) {
-        const auto value = static_cast<float>(p[i]);
-        extent.lo[i] = any ? std::min(extent.lo[i], value) : value;
-        extent.hi[i] = any ? std::max(extent.hi[i], value) : value;
-    }
-    any = true;
-}
-
 class ShapeFinder {
   public:
     ShapeFinder(const Frame& frame, const Packet& packet) : draw(frame, packet) {
@@ -66,37 +57,36 @@ class ShapeFinder {
     }
 
     DrawShape find() const {
-        DrawShape shape{{}, false, {}};
         const DrawHeader& header = draw.header;
-        if (header.arrays == 0 || position.kind != GL_VERTEX_ARRAY || position.size < 2) return shape;
-        shape.is_whole = std::all_of(segments.begin(), segments.end(),
-                                     [&](const DrawSegment& s) { return record::is_whole(header.mode, s.count); });
-        if (!add(shape.extent, segments)) return shape.extent = {}, shape;
+        DrawShape shape{header.mode, false, false, {}};
+        const bool has_position = header.arrays > 0 && position.kind == GL_VERTEX_ARRAY && position.size >= 2;
+        if (!has_position || segments.size() != 1 || header.instances != 1) return shape;
+        const std::uint32_t count = segments[0].count;
+        double p[3];
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (!read(element(segments[0].first + i), p)) return shape;
+        shape.is_known = true;
+        shape.is_whole = record::is_whole(header.mode, count);
         const auto cut = cut_of(header.mode);
-        if (!cut || !shape.is_whole || segments.size() != 1 || segments[0].count < 2 * part_elements) return shape;
-        const DrawSegment all = segments[0];
-        for (std::uint32_t at = 0; at + cut->overlap < all.count; at += cut->step) {
-            const std::uint32_t count = std::min(cut->step + cut->overlap, all.count - at);
-            Extent extent;
-            add(extent, {{all.first + at, count}});
-            shape.parts.push_back({all.first + at, count, extent});
+        if (!cut || !shape.is_whole || count < 2 * part_elements) {
+            shape.parts.push_back({0, count});
+            return shape;
         }
+        for (std::uint32_t at = 0; at + cut->overlap < count; at += cut->step)
+            shape.parts.push_back({at, std::min(cut->step + cut->overlap, count - at)});
         return shape;
     }
 
-  private:
-    /// False where a position cannot be known.
-    bool add(Extent& extent, const std::vector<DrawSegment>& of) const {
-        bool any = false;
-        for (const DrawSegment& segment : of)
-            for (std::uint32_t i = 0; i < segment.count; ++i) {
-                double p[3] = {};
-                if (!read(element(segment.first + i), p)) return false;
-                include(extent, any, p);
-            }
-        return any;
+    void read_positions(const DrawShape::Part& part, std::vector<float>& xyz) const {
+        xyz.resize(std::size_t(part.count) * 3);
+        double p[3] = {};
+        for (std::uint32_t i = 0; i < part.count; ++i) {
+            read(element(segments[0].first + part.first + i), p);
+            for (int k = 0; k < 3; ++k) xyz[std::size_t(i) * 3 + k] = static_cast<float>(p[k]);
+        }
     }
 
+  private:
     std::uint32_t element(std::uint32_t at) const {
         if (!draw.header.index_type) return at;
         std::uint32_t index = 0;
@@ -107,8 +97,9 @@ class ShapeFinder {
     template <class T> bool read_as(const std::byte* from, double (&p)[3]) const {
         T values[4] = {};
         std::memcpy(values, from, sizeof(T) * std::size_t(position.size));
-        for (int i = 0; i < std::min(position.size, 3); ++i) p[i] = double(values[i]);
-        return (position.size < 4 || values[3] == 1) && std::isfinite(p[0] + p[1] + p[2]);
+        for (int i = 0; i < 3; ++i) p[i] = i < position.size ? double(values[i]) : 0;
+        return (position.size < 4 || values[3] == 1) && std::isfinite(float(p[0])) &&
+               std::isfinite(float(p[1])) && std::isfinite(float(p[2]));
     }
 
     bool read(std::uint32_t index, double (&p)[3]) const {
@@ -159,6 +150,10 @@ const DrawShape* shape_of_draw() {
     auto& shape = shown.frame->prepared->shapes[shown.packet.body];
     if (!shape) shape = std::make_unique<const DrawShape>(find_shape(*shown.frame, shown.packet));
     return shape.get();
+}
+
+void read_positions(const DrawShape::Part& part, std::vector<float>& xyz) {
+    ShapeFinder(*shown.frame, shown.packet).read_positions(part, xyz);
 }
 
 } // namespace glcast::record

@@ -20,8 +20,8 @@ class VertexWriter {
         std::size_t at = 0;
         for (const auto& attribute : primitive.attributes) {
             const std::size_t stride = attribute.size * sizeof(float);
-            arrays.push_back({attribute.kind, attribute.unit, attribute.size, GL_FLOAT, GLsizei(stride), GL_FALSE,
-                              in_packet, 0, std::int64_t(at)});
+            arrays.push_back({attribute.kind, attribute.unit, attribute.size, GL_FLOAT, GLsizei(stride),
+                              GL_FALSE, in_packet, 0, std::int64_t(at)});
             at += align8(stride * primitive.vertices);
         }
         data_bytes = at;
@@ -52,7 +52,8 @@ class VertexWriter {
         };
         std::vector<Value> now(arrays.size());
         std::size_t vertex = 0;
-        for (Stream::Cursor at = primitive.begin; at.packet().body != primitive.end.packet().body; at.step()) {
+        for (Stream::Cursor at = primitive.begin; at.packet().body != primitive.end.packet().body;
+             at.step()) {
             const VertexCall call = *read_vertex_call(at.packet());
             std::copy(std::begin(call.values), std::end(call.values), now[number_of(call)].of);
             if (call.kind != GL_VERTEX_ARRAY) continue;
@@ -95,7 +96,8 @@ class Preparation {
 
     bool replace() {
         const auto primitive = read_primitive(cursor);
-        if (!primitive || primitive->vertices < fewest_vertices || primitive->vertices > INT32_MAX) return false;
+        if (!primitive || primitive->vertices < fewest_vertices || primitive->vertices > INT32_MAX)
+            return false;
         runs.push_back(VertexWriter(*primitive).write(made));
         replaced = true;
         // What the vertices leave as the current values.

@@ -20,7 +20,8 @@ struct Prepared {
 
     std::unordered_map<const Stream*, Runs> runs; ///< parts of the streams, and of `made` between them
     Stream made;                                  ///< draw packets
-    std::unordered_map<const std::byte*, std::unique_ptr<const DrawShape>> shapes; ///< by packet, as they are asked for
+    std::unordered_map<const std::byte*, std::unique_ptr<const DrawShape>>
+        shapes; ///< by packet, as they are asked for
 };
 
 /// What a draw packet draws.
@@ -29,8 +30,8 @@ DrawShape find_shape(const Frame& frame, const Packet& packet);
 /// The parts of a draw packet.
 struct DrawReader {
     DrawReader(const Frame& frame, const Packet& packet);
-    /// Where element 0 of an array would lie. It may lie before what is there: the draw begins with a later one. Hence
-    /// no pointer.
+    /// Where element 0 of an array would lie. It may lie before what is there: the draw begins with a later
+    /// one. Hence no pointer.
     std::uintptr_t element_0(const DrawArray& array) const {
         return reinterpret_cast<std::uintptr_t>(start(array.blob)) + std::uintptr_t(array.element_0);
     }
@@ -38,7 +39,9 @@ struct DrawReader {
     std::size_t index_bytes() const {
         return header.index_type == GL_UNSIGNED_BYTE ? 1 : header.index_type == GL_UNSIGNED_SHORT ? 2 : 4;
     }
-    const std::byte* start(std::uint32_t blob) const { return blob == in_packet ? data : frame.blobs[blob]->data(); }
+    const std::byte* start(std::uint32_t blob) const {
+        return blob == in_packet ? data : frame.blobs[blob]->data();
+    }
 
     const Frame& frame;
     DrawHeader header;

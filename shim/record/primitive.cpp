@@ -120,7 +120,8 @@ std::optional<Primitive> read_primitive(const Stream::Cursor& at) {
         if (packet.op == Op(GlCall::End)) {
             primitive.end = cursor;
             auto& all = primitive.attributes;
-            std::stable_partition(all.begin(), all.end(), [](const auto& a) { return a.kind != GL_VERTEX_ARRAY; });
+            std::stable_partition(all.begin(), all.end(),
+                                  [](const auto& a) { return a.kind != GL_VERTEX_ARRAY; });
             return primitive;
         }
         const auto call = read_vertex_call(packet);

@@ -1,5 +1,5 @@
-// What lies between a glBegin and its glEnd, read from the stream: which attributes its vertices have, and whether
-// arrays of them draw the same.
+// What lies between a glBegin and its glEnd, read from the stream: which attributes its vertices have, and
+// whether arrays of them draw the same.
 #pragma once
 #include <optional>
 #include <vector>
@@ -37,8 +37,8 @@ struct Primitive {
 };
 
 /// The primitive that begins at the cursor, at a glBegin. Nothing where arrays would not draw the same: where
-/// another call lies in it, where an attribute is given to some vertices and not to those before them, or glEnd does not
-/// follow.
+/// another call lies in it, where an attribute is given to some vertices and not to those before them, or
+/// glEnd does not follow.
 std::optional<Primitive> read_primitive(const Stream::Cursor& at);
 
 } // namespace glcast::record

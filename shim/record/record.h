@@ -78,23 +78,17 @@ void delete_copies(const Frame& frame, const GlTable& gl);
 /// the program may have changed them, and contexts share what comes back: parameters of textures.
 void let_go(const Frame& frame, const GlTable& gl);
 
-/// Where vertices lie, in the program's own coordinates. Unknown where lo > hi.
-struct Extent {
-    float lo[3] = {1, 1, 1}, hi[3] = {-1, -1, -1};
-    bool is_known() const { return lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2]; }
-};
-
 /// A draw as it is played, with glDrawArrays or glDrawElements.
 struct DrawShape {
-    Extent extent; ///< of all its vertices
+    GLenum mode;
+    bool is_known; ///< where its vertices lie, whose w is 1
     bool is_whole; ///< no vertex is left over that makes no primitive
-    /// Whole primitives that may be drawn for themselves, in order: `count` elements (vertices or indices) from the
-    /// `first`th on. Of strips, the last two are those that the next part begins with.
+    /// Elements (vertices or indices), counted from the draw's first; whole primitives that may be drawn for themselves, in
+    /// order. Of strips, the last two are those that the next part begins with.
     struct Part {
         std::uint32_t first, count;
-        Extent extent;
     };
-    std::vector<Part> parts; ///< empty where it is drawn as one
+    std::vector<Part> parts; ///< one, where it is drawn as a whole
 };
 
 /// Before the first replay: what is drawn between glBegin and glEnd becomes arrays, where the same comes of that to the
@@ -104,6 +98,8 @@ void prepare(const Frame& frame);
 /// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn. Null:
 /// nothing is known of it.
 const DrawShape* shape_of_draw();
+/// x, y and z of the vertices of a part of it, in the program's own coordinates.
+void read_positions(const DrawShape::Part& part, std::vector<float>& xyz);
 
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix
