@@ -71,7 +71,8 @@ template <class T> void read_values(Reader& reader, bool is_vector, VertexCall& 
     }
 }
 
-/// Adds the call to what is known of its attribute. False where vertices have gone before without it.
+/// Adds the call to what is known of its attribute. False where vertices have gone before without it, or with another
+/// number of values: Mesa's vertices then differ from those of arrays.
 bool note(Primitive& primitive, const VertexCall& call, const Stream::Run& run) {
     auto& all = primitive.attributes;
     auto at = std::find_if(all.begin(), all.end(), [&](const Primitive::Attribute& a) {
@@ -79,11 +80,10 @@ bool note(Primitive& primitive, const VertexCall& call, const Stream::Run& run) 
     });
     if (at == all.end()) {
         if (primitive.vertices > (call.kind == GL_VERTEX_ARRAY)) return false;
-        at = all.insert(at, {call.kind, call.unit, 0, run});
+        at = all.insert(at, {call.kind, call.unit, call.size, run});
     }
-    at->size = std::max(at->size, call.size);
     at->last = run;
-    return true;
+    return at->size == call.size;
 }
 
 } // namespace
