@@ -28,8 +28,9 @@ std::vector<Program> programs() {
     for (const char* way : {"nested_lists", "client_arrays", "buffers"}) fixture("torus", way);
     fixture("spheres", "immediate", {{"GLCAST_LAYERS", "slab"}});
     fixture("spheres", "immediate", {{"GLCAST_NORMALS", "six"}});
-    for (const char* kind : {"cad", "sky", "glass", "decals", "wires", "refilled"})
+    for (const char* kind : {"cad", "sky", "glass", "decals", "refilled"})
         all.push_back({std::string("scene_") + kind, {SCENES, kind}, {}});
+    all.push_back({"scene_wires", {SCENES, "wires"}, {{"GLCAST_INCLUDE", "lines"}}});
     for (const char* way : {"look_at_pushed", "look_at"}) all.push_back({std::string("view_") + way, {VIEWS, way}, {}});
     for (const char* way : {"tint", "opaque_by_constant", "transparency"})
         all.push_back({std::string("blend_") + way, {BLENDS, way}, {}});
