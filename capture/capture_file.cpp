@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "capture/band_writer.h"
 #include "capture/exr_header.h"
@@ -23,6 +24,20 @@ const exr::Channel channel_table[] = {{"A", true},    {"B", true},    {"G", true
                                       {"N.Z", false}, {"R", true},    {"Z", false}};
 constexpr int channel_count = std::size(channel_table);
 
+// Of captures of both sides: T is what a viewer on the other side sees.
+const exr::Channel both_channel_table[] = {{"A", true},    {"B", true},     {"G", true},      {"N.V", true},
+                                           {"N.X", false}, {"N.Y", false},  {"N.Z", false},   {"R", true},
+                                           {"T.B", true},  {"T.G", true},   {"T.N.V", true},  {"T.N.X", false},
+                                           {"T.N.Y", false}, {"T.N.Z", false}, {"T.R", true}, {"Z", false}};
+constexpr int both_channel_count = std::size(both_channel_table);
+
+std::span<const exr::Channel> channels_of(const CaptureInfo& info) {
+    if (info.both_sides) return both_channel_table;
+    return channel_table;
+}
+
+constexpr int format_of_one_side = 2;
+
 struct Part {
     View view;
     int covered = 0, with_normal = 0; ///< pixels
@@ -33,9 +48,9 @@ int chunks_per_part(int n) {
     return (n + lines - 1) / lines;
 }
 
-void add_channels(Bytes& to) {
+void add_channels(Bytes& to, const CaptureInfo& info) {
     Bytes list;
-    for (const exr::Channel& channel : channel_table) {
+    for (const exr::Channel& channel : channels_of(info)) {
         list.text(channel.name);
         list.u32(channel.half ? 1 : 2);
         list.u32(0); // linear flag and padding
@@ -50,7 +65,7 @@ void add_channels(Bytes& to) {
 }
 
 void add_standard(Bytes& to, const CaptureInfo& info, const std::string& name) {
-    add_channels(to);
+    add_channels(to, info);
     exr::add_int(to, "chunkCount", chunks_per_part(info.n));
     exr::add_byte(to, "compression", "compression", static_cast<unsigned char>(compression));
     exr::add_box2i(to, "dataWindow", 0, 0, info.n - 1, info.n - 1);
@@ -71,7 +86,7 @@ void add_matrix(Bytes& to, const char* name, const glm::dmat4& matrix) {
 }
 
 void add_capture(Bytes& to, const CaptureInfo& info) {
-    exr::add_int(to, "glcast.format", capture_format_version);
+    exr::add_int(to, "glcast.format", info.both_sides ? capture_format_version : format_of_one_side);
     exr::add_int(to, "glcast.n", info.n);
     exr::add_v3d(to, "glcast.boxLo", &info.box.lo.x);
     exr::add_double(to, "glcast.boxSize", info.box.size);
@@ -123,6 +138,26 @@ std::size_t room_for_headers(CaptureInfo info, int parts) {
 
 float tame(float value, float lo, float hi) { return std::isnan(value) ? 0.0f : std::clamp(value, lo, hi); }
 
+bool is_finite(const glm::vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// What channels T of a pixel hold, into `planes` from the first of them on. Alike from both sides where the image says
+/// nothing.
+void put_other_side(const ViewImage& image, std::size_t from, std::size_t to, bool covered,
+                    std::vector<std::vector<float>>& planes) {
+    const bool is_known = !image.other_colour.empty() && !image.other_normal.empty();
+    const glm::vec4 colour = covered ? (is_known ? image.other_colour : image.colour)[from] : glm::vec4(0);
+    const glm::vec4 normal = (is_known ? image.other_normal : image.normal)[from];
+    const bool valid = covered && normal.w > 0 && is_finite(normal);
+    const float values[] = {tame(colour.b, 0, 1),
+                            tame(colour.g, 0, 1),
+                            valid ? 1.0f : 0.0f,
+                            valid ? exr::without_noise(normal.x) : 0.0f,
+                            valid ? exr::without_noise(normal.y) : 0.0f,
+                            valid ? exr::without_noise(normal.z) : 0.0f,
+                            tame(colour.r, 0, 1)};
+    for (std::size_t c = 0; c < std::size(values); ++c) planes[channel_count - 1 + c][to] = values[c];
+}
+
 /// The channels of image row `row`, in the order of channel_table; what GL may leave odd is made plain here:
 /// nothing that is not a number, colours and depths in 0..1, nothing but background where nothing was drawn.
 void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<float>>& planes, Part& part) {
@@ -132,8 +167,7 @@ void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<
                           to = static_cast<std::size_t>(line) * n + column;
         const bool covered = image.covered(from) && std::isfinite(image.depth[from]);
         const glm::vec4 colour = covered ? image.colour[from] : glm::vec4(0), normal = image.normal[from];
-        const bool valid = covered && normal.w > 0 && std::isfinite(normal.x) && std::isfinite(normal.y) &&
-                           std::isfinite(normal.z);
+        const bool valid = covered && normal.w > 0 && is_finite(normal);
         const float values[channel_count] = {covered ? 1.0f : 0.0f,
                                              tame(colour.b, 0, 1),
                                              tame(colour.g, 0, 1),
@@ -144,7 +178,9 @@ void put_row(const ViewImage& image, int row, int line, std::vector<std::vector<
                                              tame(colour.r, 0, 1),
                                              covered ? std::clamp(image.depth[from], 0.0f, 1.0f)
                                                      : ViewImage::background(image.view.side)};
-        for (int c = 0; c < channel_count; ++c) planes[c][to] = values[c];
+        for (int c = 0; c < channel_count - 1; ++c) planes[c][to] = values[c];
+        planes.back()[to] = values[channel_count - 1];
+        if (std::ssize(planes) == both_channel_count) put_other_side(image, from, to, covered, planes);
         part.covered += covered;
         part.with_normal += valid;
     }
@@ -226,7 +262,8 @@ bool CaptureWriter::Impl::start() {
     header_room = room_for_headers(info, static_cast<int>(most));
     const std::size_t tables = most * static_cast<std::size_t>(chunks_per_part(info.n)) * 8;
     if (!file.skip_to(header_room + tables)) return file_failed();
-    const BandFormat format{info.n, {std::begin(channel_table), std::end(channel_table)}, compression};
+    const auto channels = channels_of(info);
+    const BandFormat format{info.n, {channels.begin(), channels.end()}, compression};
     bands.emplace(file, format, chunks_per_part(info.n));
     return true;
 }

@@ -11,7 +11,7 @@
 
 namespace glcast {
 
-inline constexpr int capture_format_version = 2;
+inline constexpr int capture_format_version = 3; ///< the newest that is read
 
 /// What is true of the whole capture; in the header of every part.
 struct CaptureInfo {
@@ -25,6 +25,7 @@ struct CaptureInfo {
     std::string renderer; ///< GL_RENDERER
     std::string normals;  ///< "signed" or "six"
     std::string glcast_version;
+    bool both_sides = false; ///< hits are shown as either side sees them
     std::map<std::string, long> not_understood; ///< entry point or reason -> how often
 
     /// Known when all images are made: CaptureWriter::finish() sets them.

@@ -19,7 +19,7 @@ bool passes_equal_depth(const FragmentState& state) {
 }
 
 bool depends_on_stencil(const FragmentState& state) {
-    return state.stencil_test && state.stencil_function != GL_ALWAYS;
+    return state.stencil_test && state.stencil_function != GL_ALWAYS && !state.stencil_known;
 }
 
 bool adds(const FragmentState& state) { return state.destination == GL_ONE && state.equation == GL_FUNC_ADD; }

@@ -9,7 +9,7 @@
 //
 // Three things a program blends for are not to be mixed in, since the light that they belong to is not drawn:
 // a further light of a lit surface, which in our passes has no light and would be its material once more; a
-// shadow, kept to places by a stencil test of which we have not the stencil; and fog.
+// shadow, kept to places by a stencil test that is not followed (program_stencil.h); and fog.
 #pragma once
 #include "capture/gl/gl_table.h"
 
@@ -32,6 +32,7 @@ struct Coincidence {
 /// The state of a program on which it depends. GL's defaults.
 struct FragmentState {
     bool lighting = false, blend = false, depth_test = false, depth_mask = true, stencil_test = false;
+    bool stencil_known = false; ///< it is drawn only where the stencil test passes (program_stencil.h)
     GLenum depth_function = GL_LESS, stencil_function = GL_ALWAYS;
     GLenum source = GL_ONE, destination = GL_ZERO, source_alpha = GL_ONE, destination_alpha = GL_ZERO;
     GLenum equation = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;

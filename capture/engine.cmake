@@ -9,6 +9,7 @@ add_library(glcast_engine STATIC
     engine_normal.cpp
     engine_pass.cpp
     engine_peel.cpp
+    engine_sides.cpp
     engine_slab.cpp
     engine_target.cpp
     sought.cpp
@@ -16,6 +17,7 @@ add_library(glcast_engine STATIC
     forced_caps.cpp
     forced_state.cpp
     forced_table.cpp
+    program_stencil.cpp
     solidity.cpp)
 target_link_libraries(glcast_engine PUBLIC glcast_gl glcast_view glcast_options)
 

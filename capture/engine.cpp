@@ -127,7 +127,7 @@ class Capture {
 
     AxisLayers find_layers(const Target& target, Axis axis, const OuterHits& hits) {
         if (room_between(hits, options.n).empty()) return {};
-        const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers};
+        const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers, {options.both_sides, options.culls}};
         const auto layer_sink = [&](ViewImage&& image) {
             count(image);
             return send(std::move(image));
@@ -180,7 +180,13 @@ class Capture {
         });
         pass.open = &tiles;
         image.normal.assign(image.depth.size(), glm::vec4(0));
-        if (!pass.only->empty()) capture_normals(passes, target, pass, options.normals, image);
+        image.other_colour.clear(), image.other_normal.clear();
+        if (!pass.only->empty()) {
+            const SidesTask both{options.both_sides, options.culls};
+            const SeenSides sides = see_sides(passes, target, pass, both, options.normals, image);
+            capture_normals(passes, target, pass, options.normals, image);
+            take_sides(sides, *pass.only, image);
+        }
         report.normal_seconds += seconds_since(start);
         count(image);
     }

@@ -15,6 +15,8 @@
 
 namespace glcast {
 
+class ProgramStencil;
+
 /// Draws the whole scene once through the table it is given, and through nothing else. It may set any state,
 /// clear and change matrices: the table forces what a pass needs (capture/forced_table.h). It is called many
 /// times and must draw the same each time. State it relies on, it must set (a replayed frame starts with its
@@ -57,6 +59,13 @@ struct EngineOptions {
     /// How the layers beyond are found. Slabs are taken too where this OpenGL has no fragment shaders.
     LayerMethod layer_method = LayerMethod::peel;
     bool use_shaders = true; ///< false: as if this OpenGL had none
+
+    /// Hits are shown as either side sees them (ViewImage::other_colour); `culls`: without the faces that the program
+    /// culls for a viewer on that side, where others are there too.
+    bool both_sides = false, culls = false;
+
+    /// Where draws are kept to places by the program's stencil test: what the draw function tells of each draw.
+    ProgramStencil* stencil = nullptr;
 };
 
 struct EngineReport {

@@ -65,6 +65,7 @@ class AxisPeeler {
         for_each_pixel(last_drawn, n, [&](std::size_t p) {
             image.depth[p] = ViewImage::background(view.side);
             image.colour[p] = image.normal[p] = glm::vec4(0);
+            if (!image.other_colour.empty()) image.other_colour[p] = image.other_normal[p] = glm::vec4(0);
         });
     }
 
@@ -143,7 +144,9 @@ class AxisPeeler {
     }
 
     void take_normals(ViewImage& image) {
+        const SeenSides sides = see_sides(task.passes, task.target, pass, task.sides, task.normals, image);
         capture_normals(task.passes, task.target, pass, task.normals, image);
+        take_sides(sides, open, image);
     }
 
     void merge(const ViewImage& from, ViewImage& to) const {
@@ -152,6 +155,9 @@ class AxisPeeler {
             to.depth[p] = from.depth[p];
             to.colour[p] = from.colour[p];
             to.normal[p] = from.normal[p];
+            if (from.other_colour.empty() || to.other_colour.empty()) return;
+            to.other_colour[p] = from.other_colour[p];
+            to.other_normal[p] = from.other_normal[p];
         });
     }
 

@@ -5,6 +5,7 @@
 
 #include "capture/engine_pass.h"
 #include "capture/engine_peel.h"
+#include "capture/engine_sides.h"
 
 namespace glcast {
 
@@ -16,6 +17,7 @@ struct LayerTask {
     Axis axis = Axis::x;
     NormalMethod normals = NormalMethod::signed_lights;
     int most = 2;
+    SidesTask sides;
 };
 
 /// First and last hit of each ray of the axis, depths 0..1; first > last where there is none.

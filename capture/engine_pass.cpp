@@ -7,6 +7,7 @@
 #include "capture/engine_peel.h"
 #include "capture/forced_caps.h"
 #include "capture/forced_table.h"
+#include "capture/program_stencil.h"
 
 namespace glcast {
 
@@ -16,6 +17,15 @@ constexpr int light_count = 6;
 
 bool at_known_depth(const Pass& pass) {
     return pass.depth == DepthRule::equal || pass.depth == DepthRule::blend;
+}
+
+StencilRule stencil_rule(const Pass& pass) {
+    const bool count = pass.depth == DepthRule::count, equal = at_known_depth(pass);
+    const bool missed = pass.depth == DepthRule::missed;
+    return {.tests = equal || missed || count,
+            .uncounted_only = equal || missed,
+            .hidden = count ? GLenum(GL_INCR) : GLenum(GL_KEEP),
+            .shown = equal || count ? GLenum(GL_INCR) : GLenum(GL_KEEP)};
 }
 
 GLenum depth_function(const Pass& pass) {
@@ -118,18 +128,46 @@ OffsetClamp bounded_offset(const GlTable& gl) {
 
 PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options)
     : gl(gl), draw(draw), eye_to_capture(options.eye_to_capture),
-      mirrored_projection(options.mirrored_projection), offset_clamp(bounded_offset(gl)) {}
+      mirrored_projection(options.mirrored_projection), stencil(options.stencil), offset_clamp(bounded_offset(gl)) {
+    if (stencil) stencil->forget();
+}
 
 /// The first pass of all is drawn again where it met several offsets, which it then knows.
 void PassRunner::run(const Pass& pass, const Target& target) {
+    if (stencil) find_masks(pass, target);
     draw_once(pass, target, !offsets_known);
     if (!std::exchange(offsets_known, true) && offset_levels.several()) draw_once(pass, target, false);
+}
+
+/// Of the view of the pass, where they are not known; the target's images are lost then. The first pass of a view
+/// needs none.
+void PassRunner::find_masks(const Pass& pass, const Target& target) {
+    stencil->look({pass.box, pass.axis, target.size()});
+    for (const Side viewer : {Side::minus, Side::plus})
+        if (!pass.outermost || viewer == pass.side) find_masks_of(viewer, pass, target);
+}
+
+/// However much lies outside the box: what is cut by its sides still has fronts and backs.
+void PassRunner::find_masks_of(Side viewer, const Pass& pass, const Target& target) {
+    constexpr double far_out = 1000; // boxes
+    if (stencil->knows(viewer)) return;
+    Pass marks;
+    marks.kind = PassKind::stencil;
+    marks.depth = DepthRule::unused;
+    marks.box = pass.box, marks.axis = pass.axis, marks.side = viewer;
+    marks.near = -far_out, marks.far = 1 + far_out;
+    marks.offsets = false;
+    stencil->begin_finding(target, viewer);
+    draw_once(marks, target, false);
+    stencil->end();
 }
 
 PassFacts PassRunner::facts(const Pass& pass, const Target& target, bool learning) {
     PassFacts facts;
     facts.kind = pass.kind;
     facts.depth = depth_function(pass);
+    facts.stencil = stencil_rule(pass);
+    facts.culls = pass.culls;
     facts.viewer_at_plus = pass.side == Side::plus;
     facts.outermost = pass.outermost;
     if (learning) facts.learnt = &offset_levels;
@@ -149,7 +187,10 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
     {
         ForcedTable forced(gl, facts(pass, target, learning), mirrored(pass));
         ++draw_count;
+        const bool masked = stencil && pass.kind != PassKind::stencil;
+        if (masked) stencil->begin_pass(pass.outermost ? std::optional(pass.side) : std::nullopt, pass.only);
         draw(forced.table(), sought(pass, learning));
+        if (masked) stencil->end();
         own_program |= forced.state.saw_own_program;
         unblended = forced.state.saw_blending || forced.state.depth_clears > 1;
     }
@@ -185,14 +226,10 @@ void PassRunner::set_state(const Pass& pass, const Target& target) const {
 }
 
 void PassRunner::set_depth_rule(const Pass& pass) const {
-    const bool equal = at_known_depth(pass), missed = pass.depth == DepthRule::missed;
-    gl.Enable(GL_DEPTH_TEST);
+    set_cap(gl, GL_DEPTH_TEST, pass.depth != DepthRule::unused);
     gl.DepthFunc(depth_function(pass));
-    gl.DepthMask(equal ? GL_FALSE : GL_TRUE);
-    const bool count = pass.depth == DepthRule::count;
-    set_cap(gl, GL_STENCIL_TEST, equal || missed || count);
-    gl.StencilFunc(count ? GL_ALWAYS : GL_EQUAL, 0, ~0u);
-    gl.StencilOp(GL_KEEP, count ? GL_INCR : GL_KEEP, equal || count ? GL_INCR : GL_KEEP);
+    gl.DepthMask(at_known_depth(pass) ? GL_FALSE : GL_TRUE);
+    stencil_rule(pass).apply(gl, false);
 }
 
 glm::dmat4 PassRunner::projection(const Pass& pass) const {

@@ -20,6 +20,7 @@ enum class DepthRule {
             ///< buffer
     blend,  ///< the same over the colours that are there
     missed, ///< as `first`, where `equal` marked nothing
+    unused, ///< no depth test: the program's own stencil
     count,  ///< as `first`, and every fragment, hidden or not, is counted in the stencil buffer
 };
 
@@ -43,6 +44,7 @@ struct Pass {
     std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
     const OpenTiles* open = nullptr;    ///< where and how deep something may be found; null: everywhere
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
+    bool culls = false;                 ///< the program's face culling holds
     bool offsets = true;                ///< coplanar surfaces are told apart (depth_offset.h)
     bool outermost = false;             ///< of what is seen from outside; else there may be more in front
     const PeelShader* shader = nullptr; ///< for PassKind::peel
@@ -62,6 +64,8 @@ class PassRunner {
 
   private:
     void draw_once(const Pass& pass, const Target& target, bool learning);
+    void find_masks(const Pass& pass, const Target& target);
+    void find_masks_of(Side viewer, const Pass& pass, const Target& target);
     PassFacts facts(const Pass& pass, const Target& target, bool learning);
     Sought sought(const Pass& pass, bool learning) const;
     glm::dmat4 projection(const Pass& pass) const;
@@ -75,6 +79,7 @@ class PassRunner {
     const DrawFunction& draw;
     const glm::dmat4 eye_to_capture;
     const bool mirrored_projection;
+    ProgramStencil* const stencil;
     int draw_count = 0;
     bool own_program = false, unblended = false;
     OffsetLevels offset_levels;

@@ -45,6 +45,7 @@ void note_cap(GLenum cap, bool on) {
 /// True when the call is to be made as it is.
 bool kept_cap(GLenum cap, bool on) {
     note_cap(cap, on);
+    if (cap == GL_CULL_FACE && state().culls()) return true;
     return cap_policy(cap, self().kind) == CapPolicy::keep;
 }
 

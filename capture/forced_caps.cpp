@@ -70,6 +70,11 @@ bool has(const CapRule& rule, GLenum cap) {
     return cap >= rule.first && cap < rule.first + static_cast<GLenum>(rule.count);
 }
 
+/// What marks the program's stencil buffer, and where (program_stencil.h).
+bool is_of_stencil(GLenum cap) {
+    return cap == GL_STENCIL_TEST || cap == GL_STENCIL_TEST_TWO_SIDE_EXT || cap == GL_CULL_FACE;
+}
+
 void reset(const GlTable& gl, bool per_texture_unit) {
     for (const CapRule& rule : rules) {
         if (rule.per_texture_unit != per_texture_unit || rule.colour == engine) continue;
@@ -83,6 +88,7 @@ CapPolicy cap_policy(GLenum cap, PassKind kind) {
     const auto* rule =
         std::find_if(std::begin(rules), std::end(rules), [cap](const CapRule& r) { return has(r, cap); });
     if (rule == std::end(rules)) return keep;
+    if (kind == PassKind::stencil && is_of_stencil(cap)) return keep;
     return kind == PassKind::normal ? rule->normal : rule->colour;
 }
 

@@ -128,12 +128,12 @@ void ForcedState::apply_alpha() const {
     const bool finds_depth = kind == PassKind::colour || kind == PassKind::peel;
     const Solidity solid = finds_depth ? solidity(program.fragments) : Solidity::always;
     const bool by_alpha = solid == Solidity::by_high_alpha || solid == Solidity::by_low_alpha;
-    if (!shows() || solid == Solidity::never) {
+    if (kind != PassKind::stencil && (!shows() || solid == Solidity::never)) {
         real.AlphaFunc(GL_NEVER, 0);
         real.Enable(GL_ALPHA_TEST);
     } else if (kind == PassKind::colour && by_alpha) {
         set_alpha_test(real, program, solid);
-    } else if ((kind == PassKind::colour || kind == PassKind::blend) && program.alpha_test) {
+    } else if (kind != PassKind::normal && kind != PassKind::peel && program.alpha_test) {
         real.AlphaFunc(program.alpha_function, program.alpha_reference);
         real.Enable(GL_ALPHA_TEST);
     } else {
@@ -153,8 +153,7 @@ void ForcedState::order_by_depth() const {
 void ForcedState::order_by_stencil() const {
     if (kind == PassKind::blend) real.DepthFunc(mixes_over_others() ? nearer_or_equal(pass) : depth);
     if (mixes_over_others()) {
-        real.StencilFunc(GL_ALWAYS, 0, ~0u);
-        return real.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        return apply_stencil({.tests = true});
     }
     const Coincidence rule = coincidence(program.fragments);
     const bool writes_depth = program.fragments.depth_test && program.fragments.depth_mask;
@@ -165,12 +164,11 @@ void ForcedState::order_by_stencil() const {
         counts = writes_depth;
     else // a normal: of the first that has one
         over = false, counts = program.fragments.lighting;
-    real.StencilFunc(over ? GL_ALWAYS : GL_EQUAL, 0, ~0u);
-    real.StencilOp(GL_KEEP, GL_KEEP, counts ? GL_INCR : GL_KEEP);
+    apply_stencil({.tests = true, .uncounted_only = !over, .shown = counts ? GLenum(GL_INCR) : GLenum(GL_KEEP)});
 }
 
 void ForcedState::apply_order() {
-    if (kind == PassKind::peel) return;
+    if (kind == PassKind::peel || kind == PassKind::stencil) return;
     saw_blending |= program.fragments.blends() && shows();
     if (depth == GL_EQUAL)
         order_by_stencil();
@@ -181,6 +179,13 @@ void ForcedState::apply_order() {
     set_mixing(real, program.fragments, coincidence(program.fragments).mixing);
     const auto& mask = program.colour_mask;
     real.ColorMask(mask.red, mask.green, mask.blue, mask.alpha);
+}
+
+void ForcedState::keep_to_mask(bool on, bool has_mask) {
+    program.fragments.stencil_known = on;
+    masked = on && has_mask;
+    if (depth != GL_EQUAL) apply_stencil(pass.stencil);
+    apply_order();
 }
 
 double ForcedState::level() const {

@@ -5,6 +5,7 @@
 #include "capture/coincident.h"
 #include "capture/depth_offset.h"
 #include "capture/gl/gl_table.h"
+#include "capture/stencil_rule.h"
 
 namespace glcast {
 
@@ -13,17 +14,20 @@ enum class PassKind {
     blend,  ///< what blends with the colours that are there (coincident.h)
     normal, ///< normals as colours
     peel,   ///< depth alone, by a fragment shader of ours (engine_peel.h)
+    stencil, ///< the program's own stencil buffer, and nothing else (program_stencil.h)
 };
 
 /// Alpha that the normal pass writes: lit, drawn with lighting off, nothing drawn.
 inline constexpr float lit_alpha = 1.0f, unlit_alpha = 0.5f, missed_alpha = 0.0f;
 
 /// What a pass knows beside its kind. `depth`: the depth function that it has set; with GL_EQUAL the stencil
-/// buffer counts what was drawn.
+/// buffer counts what was drawn, by a rule that goes by the draw; else by `stencil`.
 struct PassFacts {
     PassKind kind = PassKind::colour;
     GLenum depth = GL_LESS;
+    StencilRule stencil;
     bool viewer_at_plus = false; ///< the greater depth is the nearer
+    bool culls = false;          ///< the program's face culling holds
     bool outermost = false;      ///< no surface is in front of what is drawn
     DepthShift shift;
     const OffsetLevels* levels = nullptr; ///< of the frame; null where offsets count for nothing
@@ -56,6 +60,7 @@ class ForcedState {
     bool saw_blending = false;    ///< the colours are not yet what the program would leave
     int depth_clears = 0;
 
+    bool culls() const { return pass.culls; }
     void push(GLbitfield mask); ///< call before GL's own
     void pop();                 ///< call after GL's own
 
@@ -66,6 +71,9 @@ class ForcedState {
     void apply_colour_material() const; ///< colour pass only
     void apply_lighting() const;        ///< normal pass only: white when lit, black when not
     void apply();                       ///< all of them
+    /// A draw begins or ends that is cast only where the program's stencil test passes. `masked`: the highest bit
+    /// of the stencil buffer tells where; else it passes everywhere.
+    void keep_to_mask(bool on, bool masked);
     /// The program clears: what that means where depths are equal.
     void cleared(GLbitfield buffers);
     /// The program draws faces, or may. Those that nobody sees, as in a pass for depth alone, are no level.
@@ -79,6 +87,7 @@ class ForcedState {
     bool shows() const;
     void order_by_depth() const;
     void order_by_stencil() const;
+    void apply_stencil(const StencilRule& rule) const { rule.apply(real, masked); }
     int steps_nearer() const;
     bool mixes_over_others() const;
     double level() const;
@@ -88,6 +97,7 @@ class ForcedState {
     const PassKind kind;
     const GLenum depth;
     int shifted = 0; ///< steps that are in force
+    bool masked = false;
     std::size_t stack_limit = 16;
     std::vector<Saved> stack;
 };

@@ -61,8 +61,12 @@ template <auto Function, auto... Members> void replace(GlTable& table) {
     ((table.*Members = table.*Members ? Function : nullptr), ...);
 }
 
-/// Peel passes force what colour passes do, and more. The first pass of all learns what there is.
-enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4, in_learning = 8 };
+template <auto... Members> void keep(GlTable& table) {
+    ((table.*Members = ForcedTable::current().real.*Members), ...);
+}
+
+/// Peel and stencil passes force what colour passes do, and more or less. The first pass of all learns what there is.
+enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4, in_learning = 8, in_stencil = 16 };
 
 struct Rule {
     Passes passes;
@@ -253,6 +257,12 @@ constexpr Rule rules[] = {
      drop<&G::BindTextures, &G::BindTextureUnit, &G::BindMultiTextureEXT, &G::BindSampler, &G::BindSamplers>,
      "our texture stays bound"},
 
+    // The program's own stencil test, and nothing to be seen.
+    {in_stencil,
+     keep<&G::StencilFunc, &G::StencilFuncSeparate, &G::StencilFuncSeparateATI, &G::StencilOp, &G::StencilOpSeparate,
+          &G::StencilOpSeparateATI, &G::StencilMask, &G::StencilMaskSeparate, &G::ActiveStencilFaceEXT>,
+     "it is worked out in this view"},
+
     // Which offsets faces are drawn with.
     {in_learning,
      watch_faces<&G::Begin, &G::DrawArrays, &G::DrawArraysEXT, &G::DrawElements, &G::DrawRangeElements,
@@ -287,12 +297,13 @@ constexpr Rule rules[] = {
 ForcedTable::ForcedTable(const GlTable& real, const PassFacts& pass, bool mirrored)
     : real(real), kind(pass.kind), mirrored(mirrored), state(real, pass), forced(real) {
     unsigned passes = kind == PassKind::normal ? in_normal
-                      : kind == PassKind::peel ? in_colour | in_peel
-                                               : in_colour;
+                      : kind == PassKind::peel    ? in_colour | in_peel
+                      : kind == PassKind::stencil ? in_colour | in_stencil
+                                                  : in_colour;
     if (pass.learnt) passes |= in_learning;
+    current_table = this;
     for (const Rule& rule : rules)
         if (rule.passes & passes) rule.install(forced);
-    current_table = this;
     state.apply();
     real.FrontFace(mirrored ? GL_CW : GL_CCW);
 }

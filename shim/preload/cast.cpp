@@ -14,6 +14,7 @@
 #include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/axes.h"
+#include "shim/preload/backdrop_search.h"
 #include "shim/preload/choice.h"
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/mask.h"
@@ -21,6 +22,8 @@
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
+#include "shim/preload/stencil_judge.h"
+#include "shim/preload/stencil_plan.h"
 #include "shim/preload/strokes.h"
 
 namespace glcast::preload {
@@ -124,6 +127,7 @@ CaptureInfo make_info(long number, const Options& options, const EngineOptions& 
     info.renderer = renderer ? reinterpret_cast<const char*>(renderer) : "";
     info.normals = options.normals == NormalMethod::six_lights ? "six" : "signed";
     info.glcast_version = GLCAST_VERSION;
+    info.both_sides = engine.both_sides;
     return info;
 }
 
@@ -221,6 +225,8 @@ class Cast {
     std::vector<Candidate> candidates;
     mutable Patience patience{options.most_seconds, patience_lines()};
     bool has_drawn = false, has_only_looked = false;
+    mutable ProgramStencil stencil;
+    StencilPlan stencil_plan;
 
     /// Asked of GL itself: glvnd has the entry points in any case.
     bool draws_into_framebuffers() {
@@ -238,6 +244,8 @@ class Cast {
     }
     DrawFunction drawing(const Candidate& candidate, Wanted wanted, Transparent transparent) const {
         wanted.transparent = transparent;
+        wanted.stencil = stencil_plan.kept > 0 ? &stencil : nullptr;
+        wanted.backdrops = options.keep_backdrops;
         const auto places = std::make_shared<std::vector<DrawPlaces>>(parts.size());
         return [this, &candidate, wanted, places](const GlTable& table, const Sought& sought) {
             patience.render_begins();
@@ -261,6 +269,7 @@ class Cast {
         CastResult result{CastOutcome::nothing_solid, ""};
         for (const Candidate& c : candidates) {
             (is_scene(c) ? result.held.solid : result.held.flat) += c.group.triangles + c.group.outlined;
+            if (is_scene(c)) result.held.masked += c.group.hidden_triangles;
             result.held.lines += c.group.lines;
             result.held.points += c.group.points;
         }
@@ -327,9 +336,16 @@ class Cast {
         engine.mirrored_projection = group.is_mirrored();
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
+        engine.stencil = follow_stencil(candidate);
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (candidate.in_part[part] < 0) continue;
+            const Sides sides = sides_of(scenes[part], candidate.in_part[part]);
+            engine.both_sides |= sides.apart, engine.culls |= sides.culled;
+        }
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
+        if (engine.box && !options.box) leave_out(candidate, as_drawn, engine);
         if (!engine.box && !patience.over().empty()) return failure(patience.over());
         if (!engine.box) {
             CastResult nothing = nothing_solid();
@@ -338,6 +354,32 @@ class Cast {
         }
         tell("casting", std::to_string(number));
         return write(candidate, engine);
+    }
+
+    /// What the draws have to do with the stencil buffer, where some are kept to places by it; else null.
+    ProgramStencil* follow_stencil(const Candidate& candidate) {
+        stencil_plan = {};
+        if (!gl.WindowPos2i || cutting_draws(scenes, candidate.group) > 0) return nullptr;
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (candidate.in_part[part] < 0) continue;
+            const int group = candidate.in_part[part];
+            StencilPlan plan = plan_stencil(scenes[part], group);
+            judge(gl, *parts[part].frame, scenes[part], group, plan);
+            stencil_plan.kept += plan.kept, stencil_plan.unfollowed += plan.unfollowed;
+        }
+        return stencil_plan.kept > 0 ? &stencil : nullptr;
+    }
+
+    /// Backdrops, and the box is found anew. A box that is asked for holds what is wanted.
+    void leave_out(const Candidate& candidate, const DrawFunction& as_drawn, EngineOptions& engine) {
+        if (options.keep_backdrops) return;
+        std::vector<ScenePart> of;
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (candidate.in_part[part] >= 0)
+                of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
+        const LeftOut left = leave_out_backdrops(of, gl, engine, candidate.picture.coverage);
+        if (left.draws > 0) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
+        if (!left.text.empty()) say_once("%s", left.text.c_str());
     }
 
     /// It is all see-through, or what is solid of it is nothing.
@@ -382,9 +424,19 @@ class Cast {
             say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
                      "--fov DEGREES tells it");
         }
+        if (group.is_hidden_line()) {
+            not_understood["faces drawn into the depth buffer alone (hidden lines): in the colour of the background"] =
+                group.hidden_triangles;
+            if (group.lines > 0 && !options.include.lines)
+                say_once("hidden-line drawing: its faces are cast in the colour of the background; --include lines casts "
+                         "its lines too");
+        }
         if (group.judged_by_function && options.transparent == Transparent::by_alpha)
             not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =
                 group.judged_by_function;
+        if (stencil_plan.unfollowed > 0)
+            not_understood["a draw that a stencil test keeps to places which other views cannot tell: cast whole"] =
+                stencil_plan.unfollowed;
         if (group.with_own_w)
             not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
                 group.with_own_w;
@@ -399,7 +451,7 @@ class Cast {
         if (result.outcome != CastOutcome::captured) return result;
         if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
         if (result.outcome != CastOutcome::captured) return result;
-        tell(window.to_beat ? "recaptured" : "captured", std::to_string(number) + " " + path);
+        tell(window.replaces ? "recaptured" : "captured", std::to_string(number) + " " + path);
         if (!window.name.empty()) result.message += " of " + window.name;
         return result;
     }

@@ -25,6 +25,7 @@ struct CastResult {
 struct CastWindow {
     std::string name;              ///< as people are told; empty where there is no other
     std::optional<Rating> to_beat; ///< what another window's cast is worth, which this one would replace
+    bool replaces = false;         ///< what is captured so far
     long unanswered = 0; ///< questions about windows that the X server left open
 };
 

@@ -10,6 +10,7 @@ Census& Census::operator+=(const Census& other) {
     solid += other.solid;
     flat += other.flat;
     see_through += other.see_through;
+    masked += other.masked;
     lines += other.lines;
     points += other.points;
     pixels += other.pixels;
@@ -67,6 +68,9 @@ std::string advice(const Census& seen) {
         return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast" +
                (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!seen.refused.empty()) return {};
+    if (seen.masked > 0 && seen.masked == seen.solid)
+        return "its faces are drawn with masked colours, into the depth buffer alone, and nobody sees them" +
+               (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!more.empty() && seen.see_through == 0) return "--include " + more + " casts these";
     if (seen.see_through > 0)
         return "all that is solid of it is blended so that what is behind shows: --transparent keep casts it";

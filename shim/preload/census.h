@@ -10,6 +10,7 @@ struct Census {
     long foreign_frames = 0; ///< drawn by contexts of OpenGL ES
     long solid = 0;          ///< filled or outlined triangles in depth-tested or perspective drawing
     long flat = 0;           ///< the other triangles
+    long masked = 0;         ///< of `solid`, those drawn with masked colours into the depth buffer alone
     long see_through = 0;    ///< of `solid`, those that blending lets the background through
     long lines = 0, points = 0;
     long pixels = 0;  ///< glDrawPixels, glBitmap, glCopyPixels

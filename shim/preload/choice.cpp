@@ -28,6 +28,8 @@ void add(Group& all, const Group& one) {
     all.at_equal_depth += one.at_equal_depth;
     all.at_greater_depth += one.at_greater_depth;
     all.with_own_w += one.with_own_w;
+    all.hidden_triangles += one.hidden_triangles;
+    for (int hand = 0; hand < 2; ++hand) all.open_triangles[hand] += one.open_triangles[hand];
     all.judged_by_function += one.judged_by_function;
     all.guessed_view |= one.guessed_view;
     all.lines += one.lines;

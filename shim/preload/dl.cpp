@@ -15,7 +15,8 @@ namespace {
 
 /// dlsym by version: dlvsym is not interposed by anybody, and no private name of the C library is used.
 void* find_dl(const char* name) {
-    for (const char* version : {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17"}) // 2.17: aarch64
+    for (const char* version : {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17", "GLIBC_2.1",
+                                "GLIBC_2.0"}) // 2.17: aarch64; 2.1, 2.0: i386
         if (void* function = dlvsym(RTLD_NEXT, name, version)) return function;
     return nullptr;
 }

@@ -25,6 +25,8 @@ namespace {
     X(eglMakeCurrent)                                                                                        \
     X(eglReleaseThread)                                                                                      \
     X(eglCreateWindowSurface)                                                                                \
+    X(eglCreatePbufferSurface)                                                                               \
+    X(eglCreatePixmapSurface)                                                                                \
     X(eglSwapBuffers)                                                                                        \
     X(eglSwapBuffersWithDamageKHR)                                                                           \
     X(eglSwapBuffersWithDamageEXT)                                                                           \
@@ -163,6 +165,7 @@ GLCAST_EXPORT EGLBoolean eglDestroyContext(EGLDisplay display, EGLContext contex
 GLCAST_EXPORT EGLBoolean eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read,
                                         EGLContext context) {
     const Outermost outermost;
+    if (outermost) before_leaving();
     const EGLBoolean done = real().eglMakeCurrent(display, draw, read, context);
     if (done && outermost) made_current({display, as_number(draw), as_number(read), context});
     return done;
@@ -170,6 +173,7 @@ GLCAST_EXPORT EGLBoolean eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGL
 
 GLCAST_EXPORT EGLBoolean eglReleaseThread() {
     const Outermost outermost;
+    if (outermost) before_leaving();
     const EGLBoolean done = real().eglReleaseThread();
     if (done && outermost) made_current({});
     return done;
@@ -181,6 +185,21 @@ GLCAST_EXPORT EGLSurface eglCreateWindowSurface(EGLDisplay display, EGLConfig co
     const EGLSurface made = real().eglCreateWindowSurface(display, config, window, attributes);
     // Under Wayland it is a pointer, and of no use to the X server.
     if (outermost) surface_made(as_number(made), std::uint32_t(std::uintptr_t(window)));
+    return made;
+}
+
+GLCAST_EXPORT EGLSurface eglCreatePbufferSurface(EGLDisplay display, EGLConfig config, const EGLint* attributes) {
+    const Outermost outermost;
+    const EGLSurface made = real().eglCreatePbufferSurface(display, config, attributes);
+    if (outermost) offscreen_made(as_number(made), true);
+    return made;
+}
+
+GLCAST_EXPORT EGLSurface eglCreatePixmapSurface(EGLDisplay display, EGLConfig config, EGLNativePixmapType pixmap,
+                                                const EGLint* attributes) {
+    const Outermost outermost;
+    const EGLSurface made = real().eglCreatePixmapSurface(display, config, pixmap, attributes);
+    if (outermost) offscreen_made(as_number(made), false);
     return made;
 }
 

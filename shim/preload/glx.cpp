@@ -17,6 +17,7 @@ extern "C" {
 GLXContext glXCreateContextAttribsARB(Display*, GLXFBConfig, GLXContext, Bool, const int*);
 GLXContext glXCreateContextWithConfigSGIX(Display*, GLXFBConfig, int, GLXContext, Bool);
 Bool glXMakeCurrentReadSGI(Display*, GLXDrawable, GLXDrawable, GLXContext);
+GLXPbuffer glXCreateGLXPbufferSGIX(Display*, GLXFBConfig, unsigned, unsigned, int*);
 int64_t glXSwapBuffersMscOML(Display*, GLXDrawable, int64_t, int64_t, int64_t);
 void glXCopySubBufferMESA(Display*, GLXDrawable, int, int, int, int);
 }
@@ -37,6 +38,10 @@ namespace {
     X(glXMakeContextCurrent)                                                                                 \
     X(glXMakeCurrentReadSGI)                                                                                 \
     X(glXCreateWindow)                                                                                       \
+    X(glXCreatePbuffer)                                                                                      \
+    X(glXCreateGLXPbufferSGIX)                                                                               \
+    X(glXCreatePixmap)                                                                                       \
+    X(glXCreateGLXPixmap)                                                                                    \
     X(glXSwapBuffers)                                                                                        \
     X(glXSwapBuffersMscOML)                                                                                  \
     X(glXCopySubBufferMESA)                                                                                  \
@@ -96,7 +101,8 @@ class Glx : public WindowSystem {
     bool bind(const Binding& b) const override {
         XErrorTrap trap(b.display);
         const auto context = static_cast<GLXContext>(b.context);
-        const bool done = b.draw != b.read && real().glXMakeContextCurrent
+        const bool is_surfaceless = b.context && b.draw == 0;
+        const bool done = (is_surfaceless || b.draw != b.read) && real().glXMakeContextCurrent
                               ? real().glXMakeContextCurrent(as_display(b.display), b.draw, b.read, context)
                               : real().glXMakeCurrent(as_display(b.display), b.draw, context);
         return done && !trap.failed();
@@ -137,9 +143,17 @@ GLXContext make_context(Display* display, GLXContext share, bool desktop, const 
 
 template <class MakeCurrent> Bool make_current(const Binding& binding, const MakeCurrent& real_make_current) {
     const Outermost outermost;
+    if (outermost) before_leaving();
     const Bool done = real_make_current();
     if (done && outermost) made_current(binding);
     return done;
+}
+
+template <class Make> GLXDrawable make_offscreen(bool is_pbuffer, const Make& real_make) {
+    const Outermost outermost;
+    const GLXDrawable made = real_make();
+    if (outermost) offscreen_made(made, is_pbuffer);
+    return made;
 }
 
 template <class Swap> auto swap(GLXDrawable drawable, const Swap& real_swap) {
@@ -269,6 +283,25 @@ GLCAST_EXPORT GLXWindow glXCreateWindow(Display* display, GLXFBConfig config, Wi
     const GLXWindow made = real().glXCreateWindow(display, config, window, attributes);
     if (outermost) surface_made(made, std::uint32_t(window));
     return made;
+}
+
+GLCAST_EXPORT GLXPbuffer glXCreatePbuffer(Display* display, GLXFBConfig config, const int* attributes) {
+    return make_offscreen(true, [=] { return real().glXCreatePbuffer(display, config, attributes); });
+}
+
+GLCAST_EXPORT GLXPbuffer glXCreateGLXPbufferSGIX(Display* display, GLXFBConfig config, unsigned width, unsigned height,
+                                                 int* attributes) {
+    if (!real().glXCreateGLXPbufferSGIX) return 0;
+    return make_offscreen(
+        true, [=] { return real().glXCreateGLXPbufferSGIX(display, config, width, height, attributes); });
+}
+
+GLCAST_EXPORT GLXPixmap glXCreatePixmap(Display* display, GLXFBConfig config, Pixmap pixmap, const int* attributes) {
+    return make_offscreen(false, [=] { return real().glXCreatePixmap(display, config, pixmap, attributes); });
+}
+
+GLCAST_EXPORT GLXPixmap glXCreateGLXPixmap(Display* display, XVisualInfo* visual, Pixmap pixmap) {
+    return make_offscreen(false, [=] { return real().glXCreateGLXPixmap(display, visual, pixmap); });
 }
 
 GLCAST_EXPORT void glXSwapBuffers(Display* display, GLXDrawable drawable) {

@@ -38,7 +38,7 @@ GlProc find_stub(const char* name) {
 }
 
 GlProc find_window_entry(const char* name) {
-    for (const WindowEntries& list : {glx_entries(), egl_entries()})
+    for (const WindowEntries& list : {glx_entries(), egl_entries(), osmesa_entries()})
         for (std::size_t i = 0; i < list.count; ++i)
             if (std::strcmp(list.entries[i].name, name) == 0) return list.entries[i].function;
     return nullptr;
@@ -47,7 +47,8 @@ GlProc find_window_entry(const char* name) {
 } // namespace
 
 GlProc find_ours(const char* name) {
-    if (std::strncmp(name, "glX", 3) == 0 || std::strncmp(name, "egl", 3) == 0)
+    if (std::strncmp(name, "glX", 3) == 0 || std::strncmp(name, "egl", 3) == 0 ||
+        std::strncmp(name, "OSMesa", 6) == 0)
         return find_window_entry(name);
     if (std::strncmp(name, "gl", 2) == 0) return find_stub(name);
     return nullptr;
@@ -56,6 +57,12 @@ GlProc find_ours(const char* name) {
 bool in_gl_library(const void* code) {
     Dl_info info;
     return dladdr(code, &info) && info.dli_fname && is_gl_library(info.dli_fname);
+}
+
+bool in_osmesa(const void* code) {
+    Dl_info info;
+    return dladdr(code, &info) && info.dli_fname &&
+           std::strncmp(file_name(info.dli_fname), "libOSMesa", std::strlen("libOSMesa")) == 0;
 }
 
 GlProc ours_instead(const char* name, GlProc real, const void* caller) {
@@ -72,7 +79,10 @@ Lookup look_up_ours(void* handle, const char* name, const void* caller) {
     if (!found) return {false, nullptr};
     // The global scope has our own exports; the program finds them only if it would have found others without
     // us.
-    if (is_own(found) && !find_symbol(name)) return {true, nullptr};
+    const void* const recorded = find_symbol(name);
+    if (is_own(found) && !recorded) return {true, nullptr};
+    // A program with two GLs, OSMesa and another: one of them is recorded, calls of the other must not go there.
+    if (!is_own(found) && recorded && in_osmesa(found) != in_osmesa(recorded)) return {false, nullptr};
     return {true, reinterpret_cast<void*>(ours)};
 }
 

@@ -10,6 +10,9 @@ GlProc find_ours(const char* name);
 /// Is this code of a GL library or driver? Those get the real functions.
 bool in_gl_library(const void* code);
 
+/// Is this code of OSMesa, which has GL calls of its own?
+bool in_osmesa(const void* code);
+
 /// What a GetProcAddress returns: ours in place of `real`, where there is one and the caller is not a GL
 /// library.
 GlProc ours_instead(const char* name, GlProc real, const void* caller);

@@ -174,6 +174,8 @@ constexpr Variable variables[] = {
     {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
     {"GLCAST_INCLUDE", "lines, points or lines,points", parse_include},
     {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
+    {"GLCAST_BACKDROP", "keep",
+     [](const std::string& t, Options& o) { return o.keep_backdrops = t == "keep"; }},
     {"GLCAST_FOV", "degrees, more than 0 and less than 180", parse_view_angle},
     {"GLCAST_GROUP", "a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},

@@ -57,6 +57,7 @@ struct Options {
     std::string list_picture; ///< GLCAST_LIST=FILE.png: also a picture of each
     Include include;          ///< GLCAST_INCLUDE: lines, points, or both with a comma between
     Transparent transparent = Transparent::by_alpha; ///< GLCAST_TRANSPARENT: keep, skip
+    bool keep_backdrops = false; ///< GLCAST_BACKDROP: keep: skies, backgrounds are cast too (backdrop.h)
     std::optional<double> view_angle; ///< GLCAST_FOV: degrees from bottom to top, of what is drawn in clip coordinates
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles

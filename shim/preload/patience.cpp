@@ -1,5 +1,6 @@
 #include "shim/preload/patience.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -10,6 +11,9 @@ namespace {
 /// of an axis takes three more at least.
 constexpr int fewest_renders = 20, renders_a_layer = 3;
 constexpr double long_cast = 10; ///< seconds
+/// The first time a frame is drawn the driver compiles shaders and uploads, so the faster of two times tells; unless the
+/// first alone is such a part of a long cast.
+constexpr double long_first = 5; ///< seconds
 
 template <class... Values> std::string text(const char* format, Values... values) {
     char line[300];
@@ -42,7 +46,9 @@ void Patience::announce(Seconds render) {
 void Patience::render_begins() {
     const Seconds at = now();
     const Seconds render = at - render_start; // reading what it drew included
-    if (renders > 0 && !has_announced && render.count() * fewest_renders >= long_cast) announce(render);
+    if (renders > 0) fastest = renders > 1 ? std::min(fastest, render) : render;
+    const bool known = renders > 1 || (renders == 1 && render.count() >= long_first);
+    if (known && !has_announced && fastest.count() * fewest_renders >= long_cast) announce(fastest);
     if (has_announced && (at - told).count() >= 1) {
         told = at;
         lines.progress(how_far(at));

@@ -40,7 +40,7 @@ class Patience {
     const PatienceLines lines;
     const std::function<Seconds()> now;
     const Seconds start;
-    Seconds render_start{}, told{};
+    Seconds render_start{}, told{}, fastest{};
     long renders = 0; ///< that have begun
     bool has_announced = false, has_image = false;
     View last;

@@ -17,8 +17,8 @@ namespace glcast::preload {
 namespace {
 
 /// In the order in which they are asked. glvnd's libGL and libOpenGL have the same functions.
-constexpr const char* gl_libraries[] = {"libGL.so.1", "libOpenGL.so.0", "libGLX.so.0", "libEGL.so.1",
-                                        "libGLESv2.so.2"};
+constexpr const char* gl_libraries[] = {"libGL.so.1",     "libOpenGL.so.0", "libGLX.so.0",   "libEGL.so.1",
+                                        "libGLESv2.so.2", "libOSMesa.so.8", "libOSMesa.so.6"};
 
 void* find_in_loaded_libraries(const char* name) {
     for (const char* library : gl_libraries) {
@@ -44,7 +44,7 @@ namespace {
 GlProc ask_get_proc_address(const char* name) {
     using GetProcAddress = GlProc (*)(const char*);
     for (const char* get_name : {"glXGetProcAddressARB", "eglGetProcAddress"}) {
-        if (get_name[0] != name[0] && name[0] == 'e') continue; // egl* names: EGL alone
+        if (get_name[0] != name[0] && name[0] != 'g') continue; // egl* names: EGL alone
         if (auto get = reinterpret_cast<GetProcAddress>(find_symbol(get_name)))
             if (GlProc function = get(name)) return function;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -10,10 +11,14 @@
 #include <utility>
 
 #include "shim/preload/eye_space.h"
+#include "shim/preload/hidden_faces.h"
 #include "shim/preload/scene_table.h"
 
 namespace glcast::preload {
 namespace {
+
+/// What is drawn over a surface without a depth test is nearer than it, as by glPolygonOffset.
+constexpr double decal_nudge = 1.0 / 1024;
 
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
@@ -21,7 +26,8 @@ class GroupFilter final : public DrawGate {
     GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what, const Sought& sought_for,
                 DrawPlaces* all_places)
         : DrawGate(gl), scene(of), group(index), wanted(what), sought(sought_for), places(all_places) {
-        if (!sought.open && !sought.corners) places = nullptr;
+        // Draws outside of what is sought may still mark the stencil buffer.
+        if ((!sought.open && !sought.corners) || wanted.stencil) places = nullptr;
         if (places) places->begin(sought.eye_to_capture);
     }
 
@@ -37,22 +43,34 @@ class GroupFilter final : public DrawGate {
         as_points = false;
         parts.reset();
         if (next >= scene.draws.size()) return false;
-        const Draw& draw = scene.draws[next++];
+        const std::size_t number = next++;
+        const Draw& draw = scene.draws[number];
         if (draw.group != group) return false;
-        if (wanted.transparent == Transparent::skip && blending) return false;
-        if (wanted.everything) return true;
-        if (!wants(draw) || !may_be_found(draw, mode)) return false;
-        if (draw.eye_map >= 0 || draw.nudge != 0)
-            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, draw.nudge);
+        const bool skipped = (wanted.only && !(*wanted.only)[number]) ||
+                             (wanted.transparent == Transparent::skip && blending);
+        if (wanted.everything) return !skipped;
+        const bool is_wanted = !skipped && wants(draw) && may_be_found(draw, mode);
+        if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
+        if (wanted.marks) inner.PassThrough(-1 - static_cast<GLfloat>(number));
+        const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
+        if (draw.eye_map >= 0 || nudge != 0)
+            eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
+        if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
         return true;
     }
-    void drawn() override { eye_space.leave(); }
+    void drawn() override {
+        hidden_faces.leave();
+        eye_space.leave();
+        if (wanted.stencil) wanted.stencil->end_draw();
+    }
+    bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
+    bool fixes_colour() const override { return hidden_faces.entered(); }
 
   private:
     bool wants(const Draw& draw) const {
         if (draw.kind == Draw::Kind::line) return wanted.lines;
         if (draw.kind == Draw::Kind::point) return wanted.points;
-        return wanted.solid && is_solid(draw, scene.groups[group]);
+        return wanted.solid && is_solid(draw, scene.groups[group], wanted.backdrops);
     }
 
     /// Says, too, what is to be drawn of it, and how.
@@ -84,25 +102,45 @@ class GroupFilter final : public DrawGate {
         return !inner.IsEnabled(GL_ALPHA_TEST);
     }
 
-    static bool is_solid(const Draw& draw, const Group& of) {
-        if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
-        if (draw.stencilled && of.open_triangles[draw.mirrors] < of.open_triangles[!draw.mirrors])
-            return false;
-        if (!of.writes_depth || draw.writes_depth) return true;
-        return draw.tests_depth && !draw.before_depth;
-    }
-
     const Scene& scene;
     const int group;
     const Wanted wanted;
     const Sought sought;
     DrawPlaces* places;
     EyeSpace eye_space{inner};
+    HiddenFaces hidden_faces{inner};
     std::size_t next = 0;
     bool blending = false;
 };
 
 } // namespace
+
+bool is_reflection(const Draw& draw, const Group& group) {
+    return draw.stencilled && group.open_triangles[draw.mirrors] < group.open_triangles[!draw.mirrors];
+}
+
+bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
+    if (draw.kind != (of.triangles > 0 ? Draw::Kind::filled : Draw::Kind::outlined)) return false;
+    if (is_reflection(draw, of) || draw.is_outline) return false;
+    if (draw.is_decal) return true;
+    if (draw.backdrop) return backdrops;
+    if (!of.writes_depth || draw.writes_depth) return true;
+    return draw.before_depth ? backdrops : draw.tests_depth;
+}
+
+Sides sides_of(const Scene& scene, int group) {
+    Sides sides;
+    std::set<long> by_culled[2]; // triangles of draws without fronts, without backs
+    for (const Draw& draw : scene.draws) {
+        if (draw.group != group || !is_solid(draw, scene.groups[group], false)) continue;
+        sides.apart |= draw.two_colours;
+        if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
+            by_culled[draw.culled == GL_BACK].insert(draw.triangles);
+    }
+    for (const long triangles : by_culled[0]) sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
+    sides.apart |= sides.culled;
+    return sides;
+}
 
 bool Group::same_place(const Group& other) const {
     if (framebuffer != other.framebuffer || draw_buffer != other.draw_buffer || viewport != other.viewport ||
@@ -155,14 +193,17 @@ struct Corners {
     glm::dvec3 lo{INFINITY}, hi{-INFINITY};
 };
 
+/// What the projection takes to (0, 0, z, 0). The view may be part of it, so it need not be the origin.
+glm::dvec3 where_rays_meet(const glm::dmat4& clip_to_eye) {
+    const glm::dvec4 eye = clip_to_eye * glm::dvec4(0, 0, -1, 0);
+    return glm::dvec3(eye) / eye.w;
+}
+
 /// Of what a projection shows, its far plane no further than `far_ratio`.
 Corners corners_of(const glm::dmat4& projection, const Group& group, const glm::dmat4& eye_to_capture,
                    double far_ratio) {
     const glm::dmat4 to_eye = glm::inverse(projection);
-    // Where all rays meet: what the projection takes to (0, 0, z, 0). The view may be part of it, so it need not
-    // be the origin.
-    const glm::dvec4 eye_clip = to_eye * glm::dvec4(0, 0, -1, 0);
-    const glm::dvec3 eye = glm::dvec3(eye_clip) / eye_clip.w;
+    const glm::dvec3 eye = where_rays_meet(to_eye);
     Corners corners;
     for (int corner = 0; corner < 4; ++corner) {
         const double x = corner & 1 ? 1 : -1, y = corner & 2 ? 1 : -1;
@@ -191,6 +232,23 @@ double longest_side(const Corners& corners) {
 }
 
 } // namespace
+
+std::optional<glm::dvec3> eye_of(const Group& group, const glm::dmat4& eye_to_capture) {
+    constexpr double far_away = 1000; // view volumes
+    if (group.projections.empty()) return std::nullopt;
+    const glm::dmat4 to_eye = glm::inverse(group.projections.front());
+    glm::dvec3 eye;
+    if (group.kind == ProjectionKind::perspective) {
+        eye = where_rays_meet(to_eye);
+    } else {
+        const double front = group.depth_reversed ? 1 : -1;
+        const glm::dvec3 near(to_eye * glm::dvec4(0, 0, front, 1)), far(to_eye * glm::dvec4(0, 0, -front, 1));
+        eye = near + (near - far) * far_away;
+    }
+    eye = glm::dvec3(eye_to_capture * glm::dvec4(eye, 1));
+    const bool is_finite = std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
+    return is_finite ? std::optional(eye) : std::nullopt;
+}
 
 std::optional<Box> view_volume(const Group& group, const glm::dmat4& eye_to_capture, double far_ratio) {
     Corners all;

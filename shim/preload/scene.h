@@ -5,17 +5,20 @@
 // matrix is changed while it is drawn (eye_space.h). In a frame with one projection nothing is.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "capture/program_stencil.h"
 #include "capture/sought.h"
 #include "capture/view.h"
 #include "shim/preload/draw_places.h"
 #include "shim/preload/options.h"
 #include "shim/preload/sight.h"
+#include "shim/preload/stencil_events.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -52,6 +55,8 @@ struct Group {
     long outlined = 0;           ///< triangles drawn as lines or points by glPolygonMode
     long lines = 0, points = 0;
     bool writes_depth = false; ///< any filled draw
+    long hidden_triangles = 0; ///< filled, drawn into the depth buffer alone
+    std::array<GLfloat, 4> background{}; ///< what the window is cleared to
     /// Of open draws; [1]: of those that mirror.
     std::array<long, 2> open_triangles{};
     /// Draws of faces that show only at a depth which is there already; only at greater depths than are there, where
@@ -63,6 +68,10 @@ struct Group {
     std::optional<glm::dmat4> base_modelview;
     bool base_is_stencilled = false;
 
+    /// Faces that only hide what is behind them, and lines over them.
+    bool is_hidden_line() const {
+        return hidden_triangles > 0 && open_triangles[0] + open_triangles[1] == 0 && outlined + lines + points > 0;
+    }
     /// Drawn in space, not on the screen.
     bool is_spatial() const { return kind != ProjectionKind::flat; }
     bool same_place(const Group& other) const;
@@ -78,8 +87,18 @@ struct Draw {
     bool before_depth = false; ///< nothing of the group had written depth yet
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth
+    bool hides = false;        ///< filled, drawn into the depth buffer alone
     bool mirrors = false;      ///< its modelview turns right hands into left ones
+    bool textured = false, lit = false;
+    bool pinned = false;       ///< the depth range leaves it the far plane alone
+    bool backdrop = false;     ///< as backdrop_search.h has found
+    long triangles = 0;        ///< or lines, or points
     int eye_map = -1;          ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
+    bool two_colours = false;  ///< its fronts and its backs are lit with materials of their own
+    GLenum culled = GL_NONE;   ///< its faces that are not drawn
+    StencilUse stencil;        ///< as planned (stencil_plan.h)
+    bool is_outline = false;   ///< around the picture of something (stencil_plan.h)
+    bool is_decal = false;     ///< on a surface, without a depth test
     double nudge = 0;          ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 
@@ -87,6 +106,8 @@ struct Scene {
     std::vector<Group> groups; ///< in the order of their first draws
     std::vector<Draw> draws;   ///< in the order of the frame
     std::vector<EyeMap> eye_maps;
+    std::vector<StencilEvent> stencil_events;
+    bool window_has_stencil = true; ///< or it is not known
     long pixels = 0;           ///< rectangles of pixels
 };
 
@@ -109,8 +130,25 @@ struct Wanted {
     bool solid = true;
     bool lines = false, points = false;
     bool everything = false; ///< as the program draws it
+    bool backdrops = false;  ///< too: skies, backgrounds
+    bool marks = false;      ///< glPassThrough of -1 - (index into Scene::draws) before each draw
+    const std::vector<std::uint8_t>* only = nullptr; ///< by index into Scene::draws: those that are not 0
     Transparent transparent = Transparent::by_alpha;
+    /// Where draws are cast only where their stencil test passes: told of each draw. Not with `everything`.
+    ProgramStencil* stencil = nullptr;
 };
+
+/// A draw that a stencil test keeps to a mirror.
+bool is_reflection(const Draw& draw, const Group& group);
+/// Is it one of the draws of its group that are cast? `backdrops`: these too.
+bool is_solid(const Draw& draw, const Group& of, bool backdrops);
+
+/// How the solid draws of a group tell fronts from backs.
+struct Sides {
+    bool apart = false;  ///< they look different
+    bool culled = false; ///< since fronts and backs of the same are drawn one after the other
+};
+Sides sides_of(const Scene& scene, int group);
 
 /// Replays the frame, but of its draws only some of one group, and of these only what may be sought. `places` is of this
 /// frame; null: all is drawn.
@@ -119,6 +157,10 @@ void replay_group(const record::Frame& frame, const Scene& scene, int group, con
 
 /// "3360 triangles in 12 draws, perspective, viewport 0 0 800 600".
 std::string describe(const Group& group);
+
+/// Where the group is seen from, in the capture frame; far away where all rays are parallel. Nothing when the projection
+/// has no inverse.
+std::optional<glm::dvec3> eye_of(const Group& group, const glm::dmat4& eye_to_capture);
 
 /// A cube around the group's view volume in the capture frame, its far plane taken no further than
 /// `far_ratio` times as far away from the eye as its near plane. Nothing when the projection has no inverse.

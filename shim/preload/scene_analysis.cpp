@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "capture/forced_state.h"
 #include "capture/solidity.h"
 #include "shim/preload/feedback_probe.h"
 #include "shim/preload/scene.h"
@@ -55,6 +56,27 @@ std::optional<glm::dmat4> scale_before_view(const glm::dmat4& projection, const 
     return matrix;
 }
 
+/// Backs are lit by a material of their own, with a colour that ours show.
+bool has_two_colours(const GlTable& gl) {
+    if (!gl.IsEnabled(GL_LIGHTING)) return false;
+    GLboolean two_sided = GL_FALSE;
+    gl.GetBooleanv(GL_LIGHT_MODEL_TWO_SIDE, &two_sided);
+    if (!two_sided) return false;
+    GLenum tracked = GL_NONE;
+    if (gl.IsEnabled(GL_COLOR_MATERIAL)) {
+        tracked = mapped_material(static_cast<GLenum>(get_int(gl, GL_COLOR_MATERIAL_PARAMETER)));
+        const bool of_one = get_int(gl, GL_COLOR_MATERIAL_FACE) != GL_FRONT_AND_BACK;
+        if (of_one && tracked != GL_NONE) return true;
+    }
+    for (const GLenum name : {GL_DIFFUSE, GL_EMISSION}) {
+        std::array<GLfloat, 4> front{}, back{};
+        gl.GetMaterialfv(GL_FRONT, name, front.data());
+        gl.GetMaterialfv(GL_BACK, name, back.data());
+        if (front != back && mapped_material(name) != tracked) return true;
+    }
+    return false;
+}
+
 /// A similarity, be it one that mirrors.
 bool keeps_shapes(const glm::dmat4& to_eye) {
     glm::dmat4 other = to_eye;
@@ -96,6 +118,8 @@ class Analysis final : public DrawGate {
 
     /// What was drawn before to the same place is no longer seen.
     void cleared(GLbitfield buffers) override {
+        if (buffers & GL_STENCIL_BUFFER_BIT)
+            scene.stencil_events.emplace_back(stencil_clear_now(inner, framebuffer));
         if (!(buffers & GL_COLOR_BUFFER_BIT)) return;
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
@@ -127,8 +151,15 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
-        draw.stencilled = inner.IsEnabled(GL_STENCIL_TEST) && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
-        draw.is_open = draw.writes_depth && !draw.stencilled && writes_colour();
+        const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST), colours = writes_colour();
+        draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
+        if (draw.kind == Draw::Kind::filled && inner.IsEnabled(GL_CULL_FACE) && colours)
+            draw.culled = static_cast<GLenum>(get_int(inner, GL_CULL_FACE_MODE));
+        draw.is_open = draw.writes_depth && !draw.stencilled && colours;
+        draw.hides = draw.writes_depth && !tests_stencil && !colours && draw.kind == Draw::Kind::filled;
+        draw.textured = is_textured();
+        draw.lit = inner.IsEnabled(GL_LIGHTING);
+        draw.pinned = tests && is_pinned(group);
         draw.eye_map = eye_map_of(sight, group);
         const EyeMap* map = draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr;
         draw.mirrors = mirrors(map ? map->apply(modelview) : modelview);
@@ -152,6 +183,7 @@ class Analysis final : public DrawGate {
         ++group.draws;
         group.last_draw = static_cast<long>(scene.draws.size());
         hands_over_clip = sight.projection == glm::dmat4(1.0) && modelview == glm::dmat4(1.0);
+        if (tests_stencil) scene.stencil_events.emplace_back(stencil_draw_now(inner, scene.draws.size()));
         scene.draws.push_back(draw);
         add_primitives(primitives);
         return ask(sight);
@@ -159,14 +191,17 @@ class Analysis final : public DrawGate {
 
     void add_primitives(long number) override {
         if (scene.draws.empty()) return; // a lone glEnd
-        const Draw& draw = scene.draws.back();
+        Draw& draw = scene.draws.back();
         Group& group = scene.groups[draw.group];
+        draw.triangles += number;
         (draw.kind == Draw::Kind::filled     ? group.triangles
          : draw.kind == Draw::Kind::outlined ? group.outlined
          : draw.kind == Draw::Kind::line     ? group.lines
                                              : group.points) += number;
+        if (draw.hides) group.hidden_triangles += number;
         if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
         if (gives_w && hands_over_clip) wonder_about_w();
+        if (draw.kind == Draw::Kind::filled) draw.two_colours |= has_two_colours(inner);
     }
 
     void drawn() override {
@@ -180,6 +215,7 @@ class Analysis final : public DrawGate {
 
     /// After the frame.
     void finish(std::optional<double> view_angle) {
+        scene.window_has_stencil = get_int(inner, GL_STENCIL_BITS) > 0 || get_int(inner, GL_RED_BITS) == 0;
         for (const auto& [index, fits] : clip_draws) understand(index, fits, view_angle);
         for (Group& group : scene.groups) {
             if (group.framebuffer == 0 || !group.is_spatial()) continue;
@@ -207,6 +243,18 @@ class Analysis final : public DrawGate {
         return mask[0] || mask[1] || mask[2];
     }
 
+    /// By the texture unit that is active, which in a frame with one is that one.
+    bool is_textured() const {
+        return inner.IsEnabled(GL_TEXTURE_2D) || inner.IsEnabled(GL_TEXTURE_CUBE_MAP) ||
+               inner.IsEnabled(GL_TEXTURE_RECTANGLE) || inner.IsEnabled(GL_TEXTURE_1D);
+    }
+
+    bool is_pinned(const Group& group) const {
+        GLfloat range[2] = {0, 1};
+        inner.GetFloatv(GL_DEPTH_RANGE, range);
+        return range[0] == range[1] && range[0] == (group.depth_reversed ? 0 : 1);
+    }
+
     Draw::Kind kind_of(GLenum mode) const {
         if (mode == GL_POINTS) return Draw::Kind::point;
         if (!has_faces(mode)) return Draw::Kind::line;
@@ -221,6 +269,7 @@ class Analysis final : public DrawGate {
         now.framebuffer = framebuffer;
         now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
         now.viewport = viewport;
+        inner.GetFloatv(GL_COLOR_CLEAR_VALUE, now.background.data());
         now.projection = sight.projection;
         now.kind = sight.perspective ? ProjectionKind::perspective
                    : tests_depth     ? ProjectionKind::orthographic

@@ -83,6 +83,15 @@ template <auto Member, class R, class... A> struct Attribute<Member, R (*)(A...)
     }
 };
 
+/// The colour of a vertex.
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Colour;
+template <auto Member, class R, class... A> struct Colour<Member, R (*)(A...)> {
+    static R APIENTRY call(A... arguments) {
+        if (!gate->fixes_colour()) (gate->inner.*Member)(arguments...);
+    }
+};
+
 /// Pixels, which are never solid.
 template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
 struct Dropped;
@@ -132,9 +141,8 @@ template <class One, class Many> void draw_parts(GLenum mode, GLsizei count, con
     } else if (gate->parts->size() == 1) {
         one(drawn, static_cast<GLint>(gate->parts->front().first), static_cast<GLsizei>(gate->parts->front().count));
     } else {
-        static thread_local std::vector<GLint> firsts;
-        static thread_local std::vector<GLsizei> counts;
-        firsts.clear(), counts.clear();
+        std::vector<GLint> firsts;
+        std::vector<GLsizei> counts;
         for (const auto& part : *gate->parts)
             firsts.push_back(static_cast<GLint>(part.first)), counts.push_back(static_cast<GLsizei>(part.count));
         many(drawn, firsts, counts);
@@ -295,6 +303,11 @@ void APIENTRY push_matrix() {
     X(VertexAttrib4usv) X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub)      \
         X(VertexAttrib4Nubv) X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
 
+#define GLCAST_EIGHT_TYPES(X, NAME)                                                                          \
+    X(NAME##b) X(NAME##d) X(NAME##f) X(NAME##i) X(NAME##s) X(NAME##ub) X(NAME##ui) X(NAME##us)               \
+    X(NAME##bv) X(NAME##dv) X(NAME##fv) X(NAME##iv) X(NAME##sv) X(NAME##ubv) X(NAME##uiv) X(NAME##usv)
+#define GLCAST_COLOURS(X) GLCAST_EIGHT_TYPES(X, Color3) GLCAST_EIGHT_TYPES(X, Color4)
+
 #define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)
 #define GLCAST_PIXELS(X) X(Bitmap) X(DrawPixels) X(CopyPixels)
 #define GLCAST_CLEARS(X)                                                                                     \
@@ -329,6 +342,12 @@ void install_vertices(GlTable& table) {
 #undef GLCAST_INSTALL
 #define GLCAST_INSTALL(NAME) table.NAME = Attribute<&GlTable::NAME>::call;
     GLCAST_ATTRIBUTES(GLCAST_INSTALL)
+#undef GLCAST_INSTALL
+}
+
+void install_colours(GlTable& table) {
+#define GLCAST_INSTALL(NAME) table.NAME = Colour<&GlTable::NAME>::call;
+    GLCAST_COLOURS(GLCAST_INSTALL)
 #undef GLCAST_INSTALL
 }
 
@@ -406,6 +425,7 @@ GlTable gated_table(DrawGate& new_gate) {
     GlTable table = new_gate.inner;
     install_draws(table);
     install_vertices(table);
+    if (new_gate.may_fix_colour()) install_colours(table);
     install_others(table, new_gate.draws_nothing());
     return table;
 }

@@ -35,6 +35,9 @@ class DrawGate {
     virtual void cleared(GLbitfield) {}
     /// glDrawPixels, glBitmap or glCopyPixels was called; never solid, and swallowed.
     virtual void pixels_drawn() {}
+    /// Some draws are in one colour, whatever their vertices say; and now they are.
+    virtual bool may_fix_colour() const { return false; }
+    virtual bool fixes_colour() const { return false; }
     /// GL_BLEND is switched. False: the switch is swallowed.
     virtual bool blends(bool) { return true; }
     /// True: glPushAttrib and glPopAttrib bring `blends` back too.

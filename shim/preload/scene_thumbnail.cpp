@@ -33,8 +33,9 @@ template <auto... Members> void ignore(GlTable& table) {
 
 using G = GlTable;
 
-/// The program's drawing, but where to and what it wipes away.
-GlTable thumbnail_table(const GlTable& gl) {
+} // namespace
+
+GlTable picture_table(const GlTable& gl) {
     real = &gl;
     GlTable table = gl;
     ignore<&G::Viewport, &G::Scissor, &G::StencilFunc, &G::StencilOp, &G::StencilMask, &G::StencilFuncSeparate,
@@ -49,6 +50,8 @@ GlTable thumbnail_table(const GlTable& gl) {
     table.PushAttrib = push_attrib;
     return table;
 }
+
+namespace {
 
 void prepare(const GlTable& gl, const Target& target, int width, int height, bool depth_reversed) {
     target.bind();
@@ -103,7 +106,7 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
     const Target target(calls, size, false);
     if (!target.complete()) return thumbnail;
     prepare(calls, target, thumbnail.width, thumbnail.height, depth_reversed);
-    draw(thumbnail_table(calls));
+    draw(picture_table(calls));
     gl.Finish();
     target.bind();
     read(calls, target, thumbnail);

@@ -16,6 +16,9 @@ struct Thumbnail {
     bool flat = false;             ///< all of it at one depth
 };
 
+/// What the program draws, but where to and what it wipes away. One at a time on a thread, while `gl` lives.
+GlTable picture_table(const GlTable& gl);
+
 /// Draws into a framebuffer of ours, in the current context. `draw` plays the group through the table that it is
 /// given; the program's viewport, scissor, stencil, clears and framebuffers are left out. `size`: of the longer
 /// side.

@@ -20,9 +20,15 @@ std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
 
+/// Of a 32-bit address space the program needs a share too.
+std::size_t bytes_for_recording(std::size_t mebibytes) {
+    constexpr std::size_t most = sizeof(void*) == 4 ? std::size_t(3) << 29 : SIZE_MAX;
+    return std::min(mebibytes, most >> 20) << 20;
+}
+
 Session* make_session() {
     auto* fresh = new Session;
-    record::set_memory_limit(fresh->options.memory_mib << 20);
+    record::set_memory_limit(bytes_for_recording(fresh->options.memory_mib));
     if (!fresh->options.error.empty()) {
         say("%s (nothing will be captured)", fresh->options.error.c_str());
         tell("failed", fresh->options.error);
@@ -59,8 +65,9 @@ struct ThreadState {
     NativeContext* context;
     std::uintptr_t drawable;
     bool known; ///< to the recorder
+    bool is_pbuffer, is_pixmap; ///< the drawable
 };
-constinit thread_local ThreadState thread_state{nullptr, 0, false};
+constinit thread_local ThreadState thread_state{nullptr, 0, false, false, false};
 
 void give_up(Session& s) {
     s.triggers.give_up();
@@ -88,7 +95,7 @@ template <class Work> void guarded(Work&& work) noexcept {
 /// The first context that is current.
 void greet(Session& s, const NativeContext& context) {
     if (speaks_alone()) say("hooked %s in %s", context.system->name(), program_name().c_str());
-    tell("hooked", context.system->name());
+    tell("hooked", std::string(context.system->name()) + " " + program_name());
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");
     if (s.options.signal) tell("waits", "the signal did not come");
@@ -159,6 +166,7 @@ bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
     if (!is_late_enough(s)) return false;
     const std::lock_guard lock(s.mutex);
     if (context.destroyed) return false;
+    if (!s.has_shown) return true; // what a read may end, its number is not known before
     const Ended ended = frames_of(s, context, drawable);
     return ended.frames + 1 >= std::max(ended.next_wish, s.options.frame);
 }
@@ -179,6 +187,7 @@ void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable
     const std::lock_guard lock(s.mutex); // other threads look at what is recorded
     context.recording = true;
     context.recorded_drawable = drawable;
+    context.reads = {};
 }
 
 /// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
@@ -204,10 +213,17 @@ std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintp
     return taken;
 }
 
+/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
+void keep_of_this_display(std::vector<FramePart>& parts) {
+    if (!thread_state.context) return;
+    std::erase_if(parts, [](const FramePart& part) { return part.context->display != thread_state.context->display; });
+}
+
 /// Count the frame that ends here, and cast it if it was recorded. `context` is null where none of desktop GL
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
+    s.has_shown = true;
     forget_front();
     s.triggers.look_for_signals();
     update_unwanted(s);
@@ -220,13 +236,11 @@ void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     }
     if (!s.triggers.waiting()) return;
     auto parts = take_parts(s, context, drawable);
-    // Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
-    if (thread_state.context)
-        std::erase_if(parts, [](const FramePart& part) {
-            return part.context->display != thread_state.context->display;
-        });
+    keep_of_this_display(parts);
+    if (number < s.options.frame) parts.clear();
     const bool expected = context && number >= s.options.frame && is_late_enough(s);
-    if (!parts.empty() || expected) cast_parts(s, std::move(parts), thread_state.context, window, number);
+    if (!parts.empty() || expected)
+        cast_parts(s, std::move(parts), thread_state.context, window, number, FrameEnd::shown);
 }
 
 /// A context that draws on a thread of its own to framebuffer objects: its part of a frame that has ended
@@ -246,8 +260,83 @@ void end_late_part(Session& s, NativeContext& context) {
         for (const auto& [key, ended] : s.ended)
             if (ended.frames > number) window = key, number = ended.frames;
     }
-    if (!parts.empty()) cast_parts(s, std::move(parts), &context, window, number);
+    if (!parts.empty()) cast_parts(s, std::move(parts), &context, window, number, FrameEnd::shown);
     start_recording(s, context, thread_state.drawable);
+}
+
+/// What the program has drawn since its last frame ended, with the recordings going on: a swap may follow, and end a
+/// frame with all of it.
+std::vector<FramePart> lend_parts(Session& s, const NativeContext& current) {
+    const std::lock_guard lock(s.mutex);
+    std::vector<FramePart> lent;
+    for (const FramePart& part : s.parts)
+        if (!part.context->destroyed) lent.push_back(part);
+    for (const auto& [handle, context] : s.contexts) {
+        if (!context->recording || (context.get() != &current && context->threads > 0)) continue;
+        if (auto frame = record::frame_so_far(*context->shadow))
+            lent.push_back({context, context->recorded_drawable, std::move(frame)});
+    }
+    return lent;
+}
+
+/// Grows with each draw that is recorded, of all contexts whose drawing a read by `current` may show.
+std::uint64_t drawn_so_far(Session& s, const NativeContext& current) {
+    const std::lock_guard lock(s.mutex);
+    std::uint64_t draws = s.parts.size();
+    for (const auto& [handle, context] : s.contexts)
+        if (context.get() == &current || (context->recording && context->threads == 0))
+            draws += record::draws_so_far(*context->shadow);
+    return draws;
+}
+
+/// Of the smallest picture that anybody reads to see it.
+constexpr long picture_pixels = 1024;
+
+/// True once for what was drawn: where a picture of it has been read, be it row by row.
+bool has_read_a_picture(Session& s, NativeContext& context, long pixels) {
+    const std::uint64_t drawn = drawn_so_far(s, context);
+    if (drawn == 0) return false;
+    if (drawn != context.reads.drawn) context.reads = {drawn, 0};
+    const long before = std::exchange(context.reads.pixels, context.reads.pixels + pixels);
+    return before < picture_pixels && context.reads.pixels >= picture_pixels;
+}
+
+/// The first frame is looked at while its recording goes on, for programs that read before their first swap (to find
+/// what lies where, to make small pictures) and show it all then. Who has read twice is taken not to swap at all.
+void picture_is_read(Session& s, NativeContext& context, long pixels) {
+    if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
+    if (!s.triggers.waiting() || s.holding || record::busy(*context.shadow)) return;
+    const std::uintptr_t drawable = thread_state.drawable;
+    if (!context.recording) return start_recording(s, context, drawable);
+    if (!has_read_a_picture(s, context, pixels)) return;
+    ++s.frames;
+    const FrameKey window(&context, drawable);
+    if (s.pictures_read == 1) count_first_read(s);
+    if (!s.triggers.waiting()) return;
+    long number = 0, wish = 0;
+    bool is_first = false;
+    {
+        const std::lock_guard lock(s.mutex);
+        is_first = s.pictures_read++ == 0;
+        if (is_first) s.first_read = window;
+        Ended& ended = s.ended[window];
+        number = ended.frames + 1;
+        if (!is_first) ++ended.frames;
+        wish = std::max(ended.next_wish, s.options.frame);
+    }
+    auto parts = is_first ? lend_parts(s, context) : take_parts(s, &context, drawable);
+    keep_of_this_display(parts);
+    if (number >= wish) cast_parts(s, std::move(parts), &context, window, number, is_first ? FrameEnd::first_read : FrameEnd::read);
+    start_recording(s, context, drawable);
+}
+
+/// Told of a program that ends no frame.
+void note_offscreen(Session& s) {
+    const char* const where = thread_state.is_pbuffer      ? "a pbuffer"
+                              : thread_state.is_pixmap     ? "memory or a pixmap"
+                              : thread_state.drawable == 0 ? "framebuffer objects alone"
+                                                           : nullptr;
+    if (where && !s.offscreen.exchange(where)) tell("offscreen", where);
 }
 
 bool always() { return true; }
@@ -258,7 +347,7 @@ void frame_ends_here(Session& s, bool (*really)()) {
     if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
     if (!s.triggers.waiting() || !context || !context->shadow) return;
     if (record::busy(*context->shadow)) return;
-    if (thread_state.drawable != 0 && really()) {
+    if (thread_state.drawable != 0 && !thread_state.is_pbuffer && really()) {
         end_frame(s, context, thread_state.drawable);
         start_recording(s, *context, thread_state.drawable);
     } else if (context->end_is_due.exchange(false)) {
@@ -351,7 +440,10 @@ void made_current(const Binding& binding) noexcept {
             }
         }
         if (now != before || binding.draw != thread_state.drawable) forget_front();
-        thread_state = {now, binding.draw, true};
+        {
+            const std::lock_guard lock(s.mutex);
+            thread_state = {now, binding.draw, true, s.pbuffers.contains(binding.draw), s.pixmaps.contains(binding.draw)};
+        }
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
         if (!now) return;
         announce(s, *now);
@@ -359,6 +451,7 @@ void made_current(const Binding& binding) noexcept {
             const std::lock_guard lock(s.mutex);
             s.windows.drawn_to(binding.draw, now->system->window_of(binding.draw));
         }
+        if (now->shadow) note_offscreen(s);
         now->end_is_due = false;
         if (now->shadow) start_recording(s, *now, binding.draw);
     });
@@ -395,9 +488,29 @@ void flushed() noexcept {
     guarded([](Session& s) { frame_ends_here(s, s.options.read_ends ? always : draws_to_front); });
 }
 
-void about_to_read() noexcept {
-    if (!existing.load(std::memory_order_relaxed) || !session().options.read_ends) return;
-    guarded([](Session& s) { frame_ends_here(s, always); });
+void before_leaving() noexcept {
+    if (!thread_state.is_pixmap || !thread_state.context || !thread_state.context->recording) return;
+    guarded([](Session& s) { frame_ends_here(s, draws_to_front); });
+}
+
+void offscreen_made(std::uintptr_t drawable, bool is_pbuffer) noexcept {
+    if (!drawable) return;
+    guarded([&](Session& s) {
+        const std::lock_guard lock(s.mutex);
+        (is_pbuffer ? s.pbuffers : s.pixmaps).insert(drawable);
+    });
+}
+
+bool reads_may_end_frames() noexcept {
+    const Session* s = existing.load(std::memory_order_relaxed);
+    if (!s || !thread_state.context || !thread_state.context->shadow) return false;
+    return s->options.read_ends || (!s->has_shown.load(std::memory_order_relaxed) && s->triggers.waiting());
+}
+
+void pixels_are_read(long pixels) noexcept {
+    guarded([&](Session& s) {
+        s.options.read_ends ? frame_ends_here(s, always) : picture_is_read(s, *thread_state.context, pixels);
+    });
 }
 
 } // namespace glcast::preload

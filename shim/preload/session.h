@@ -28,6 +28,11 @@ struct NativeContext {
     int threads = 0; ///< on which it is current
     bool destroyed = false;
     bool in_cast = false; ///< a cast has left it and will come back, or makes a sibling of it; on whatever thread
+    /// Of the frame that is recorded, since something was drawn: how far that was, and the pixels read.
+    struct Reads {
+        std::uint64_t drawn = 0;
+        long pixels = 0;
+    } reads;
     /// A frame has ended elsewhere while this context was current on a thread of its own: what it has drawn by its
     /// next flush belongs to that frame.
     std::atomic<bool> end_is_due{false};
@@ -58,6 +63,15 @@ void surface_made(std::uintptr_t drawable, std::uint32_t window) noexcept;
 /// Around the real swap of a drawable, whichever is current.
 void before_swap(std::uintptr_t drawable) noexcept;
 void after_swap(std::uintptr_t drawable) noexcept;
+/// A drawable that no swap shows: its frames end where they are read. A pixmap shows what is flushed to it.
+void offscreen_made(std::uintptr_t drawable, bool is_pbuffer) noexcept;
+/// Of an idle program, and of one that has swapped, nothing need be asked.
+bool reads_may_end_frames() noexcept;
+/// Before a read of so many pixels. While nothing was ever swapped, a frame ends where a picture of it is read; a few
+/// pixels are no picture, for programs look so what the pointer is on.
+void pixels_are_read(long pixels) noexcept;
+/// Before another context or drawable becomes current on this thread: what was drawn to a pixmap is flushed then.
+void before_leaving() noexcept;
 /// Display lists of this thread's context that were filled by other means than GL calls.
 void lists_made_elsewhere(GLuint first, GLsizei count) noexcept;
 

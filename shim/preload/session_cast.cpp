@@ -45,6 +45,8 @@ bool chooses_a_window(const Options& options) {
     return options.window.empty() && (options.list || (options.captures == 1 && options.group == 0));
 }
 
+bool takes_one(const Options& options) { return options.list || options.captures == 1; }
+
 /// What is held is the last word. From any thread.
 void settle(Session& s) {
     if (!s.holding.exchange(false)) return;
@@ -100,12 +102,12 @@ void look_at_windows(Session& s, const NativeContext& context) {
 }
 
 /// Nothing where no frame of this window is wanted.
-std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, std::uintptr_t drawable) {
+std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, std::uintptr_t drawable, FrameEnd end) {
     const std::string& wanted = s.options.window;
     bool alone = false;
     {
         const std::lock_guard lock(s.mutex);
-        if (s.holding && s.windows.is_done(drawable)) return std::nullopt;
+        if (s.holding && !s.read_is_held && s.windows.is_done(drawable)) return std::nullopt;
         alone = s.windows.count() == 1;
     }
     const bool chooses = !alone && chooses_a_window(s.options);
@@ -113,10 +115,13 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     std::unique_lock lock(s.mutex);
     if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
         s.seen.other_windows.clear();
-        if (chooses_a_window(s.options) && s.windows.others_may_follow(drawable) &&
-            !s.told_looks.exchange(true))
-            tell("looks", s.windows.list());
-        return CastWindow{s.windows.describe(drawable), s.holding ? s.windows.held() : std::nullopt,
+        const bool may_follow = end == FrameEnd::shown
+                                    ? chooses_a_window(s.options) && s.windows.others_may_follow(drawable)
+                                    : takes_one(s.options);
+        if (may_follow && !s.told_looks.exchange(true)) tell("looks", s.windows.list());
+        return CastWindow{s.windows.describe(drawable),
+                          s.holding && !s.read_is_held ? s.windows.held() : std::nullopt,
+                          s.holding || (s.read_is_open && end == FrameEnd::shown),
                           s.inquiry.unanswered()};
     }
     Census other;
@@ -125,6 +130,18 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     lock.unlock();
     frame_without_cast(s, other);
     return std::nullopt;
+}
+
+/// A frame that a read has ended is held: a swap may soon show what is better. False: it is to be taken as any.
+bool holds_a_read(Session& s, const CastResult& result, FrameEnd end) {
+    const bool shown = result.outcome == CastOutcome::captured || result.outcome == CastOutcome::listed;
+    const bool is_only = takes_one(s.options);
+    if (!shown || (!is_only && end != FrameEnd::first_read)) return false;
+    if (speaks_alone()) say("%s, ended by a read: nothing was swapped", result.message.c_str());
+    (is_only ? s.read_is_held : s.read_is_open) = true;
+    s.settled = true;
+    if (is_only) hold(s);
+    return true;
 }
 
 /// What comes of a frame where the program has several windows. False: it is to be taken as if there were
@@ -139,7 +156,8 @@ bool among_windows(Session& s, std::uintptr_t drawable, const CastResult& result
     }
     if (s.holding) {
         if (shown && speaks_alone()) say("%s", result.message.c_str());
-        if (!more) settle(s);
+        if (shown) s.read_is_held = false;
+        if (!more && !s.read_is_held) settle(s);
         return true;
     }
     if (!shown || !more || !chooses_a_window(s.options)) return false;
@@ -175,6 +193,8 @@ bool is_captured_by_a_child() {
         if (empty > 0) tell("seen", why);
         return;
     }
+    if (const char* where = s->offscreen; where && frames == 0)
+        return say("%s draws into %s, and neither swaps nor reads what it draws: nothing captured", program.c_str(), where);
     if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
     if (empty == 0)
         return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
@@ -228,7 +248,8 @@ class HeldContexts {
 };
 
 /// Whether a frame was drawn for it.
-bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number) {
+bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number,
+                  FrameEnd end) {
     if (s.casting.exchange(true)) return false; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
@@ -237,22 +258,35 @@ bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext
     if (!s.triggers.waiting()) return false; // it has cast the last that was wanted
     const HeldContexts held(s, parts, current);
     if (parts.empty()) return false;
-    const auto turn = take_turn(s, *parts.front().context, window.second);
+    const auto turn = take_turn(s, *parts.front().context, window.second, end);
     if (!turn) return false;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
-    if (!among_windows(s, window.second, result))
+    if (end == FrameEnd::shown && s.read_is_open.exchange(false) && nothing) s.triggers.taken(); // it stays
+    if (end == FrameEnd::shown ? !among_windows(s, window.second, result) : !holds_a_read(s, result, end))
         nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
     return !nothing;
 }
 
 } // namespace
 
+void count_first_read(Session& s) {
+    const bool is_cast = s.read_is_open.exchange(false);
+    {
+        const std::lock_guard lock(s.mutex);
+        Ended& ended = s.ended[s.first_read];
+        ++ended.frames;
+        if (is_cast) ended.next_wish = ended.frames + s.options.every;
+    }
+    if (is_cast) s.triggers.taken();
+    update_unwanted(s);
+}
+
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
-                long number) {
+                long number, FrameEnd end) {
     if (parts.empty()) return frame_without_cast(s, {});
     bool has_drawn = false;
-    on_own_stack(HeldSignals::handled, [&] { has_drawn = cast_or_pass(s, parts, current, window, number); });
+    on_own_stack(HeldSignals::handled, [&] { has_drawn = cast_or_pass(s, parts, current, window, number, end); });
     parts.clear();
     if (!has_drawn) return;
     record::give_back_spare_memory();

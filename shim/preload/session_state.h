@@ -36,6 +36,9 @@ struct Session {
     std::map<FrameKey, Ended> ended;
     std::set<std::uintptr_t> swapped; ///< drawables
     std::vector<FramePart> parts;     ///< of the frame that has not ended yet
+    std::set<std::uintptr_t> pbuffers, pixmaps;
+    long pictures_read = 0; ///< frames that a read has ended
+    FrameKey first_read;    ///< where the first of these was, which counts when the second comes
     Census seen;
     unsigned told_kinds = 0;
     Windows windows;
@@ -46,6 +49,10 @@ struct Session {
     std::atomic<bool> settled{false};    ///< captured, listed or failed: nothing more to say at exit
     std::atomic<bool> told_looks{false}; ///< other windows may still show something better
     std::atomic<bool> holding{false};    ///< something is captured or listed, and not yet the last word
+    std::atomic<bool> read_is_held{false}; ///< of a frame that a read has ended: whatever a swap shows is better
+    std::atomic<bool> read_is_open{false}; ///< the same, where several captures are wanted: not counted yet
+    std::atomic<bool> has_shown{false};    ///< a frame has ended by a swap, or by a flush of the front buffer
+    std::atomic<const char*> offscreen{nullptr}; ///< where it draws that is no window
     std::atomic<long> frames{0};
     std::atomic<Clock::time_point> start{}; ///< of GL: when the first context was made current
 
@@ -60,9 +67,13 @@ Session* session_if_any();
 /// Whether frames are recorded follows from the triggers.
 void update_unwanted(Session& s);
 
+enum class FrameEnd { shown, first_read, read };
+
+/// The frame that the first read has ended counts, for no swap came.
+void count_first_read(Session& s);
 /// A frame that ended in `window`, the number-th there: cast it, or note what it holds instead. `parts` may
 /// be empty. `current`, where not null, is current on this thread.
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
-                long number);
+                long number, FrameEnd end);
 
 } // namespace glcast::preload

@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/uio.h>
 #include <termios.h>
 #include <unistd.h>
@@ -48,7 +49,7 @@ Identity identify(int descriptor) {
     if (fstat(descriptor, &status) != 0) return {};
     Identity found{kind_of(descriptor, status), status.st_dev, status.st_rdev, status.st_ino, 0, 0};
     struct statx more {};
-    if (found.kind == Kind::file && statx(descriptor, "", AT_EMPTY_PATH, STATX_BTIME, &more) == 0 &&
+    if (found.kind == Kind::file && syscall(SYS_statx, descriptor, "", AT_EMPTY_PATH, STATX_BTIME, &more) == 0 &&
         (more.stx_mask & STATX_BTIME) != 0) {
         found.born = more.stx_btime.tv_sec;
         found.born_nanoseconds = more.stx_btime.tv_nsec;
@@ -114,7 +115,7 @@ const char* write_to_terminal(std::string_view line) {
 /// write may be non-blocking; before, vmsplice is, and takes the page as it is.
 ssize_t write_without_waiting(int pipe, std::string_view text) {
     const iovec part{const_cast<char*>(text.data()), text.size()};
-    const ssize_t written = pwritev2(pipe, &part, 1, -1, RWF_NOWAIT);
+    const ssize_t written = syscall(SYS_pwritev2, pipe, &part, 1UL, -1L, -1L, RWF_NOWAIT);
     if (written >= 0 || (errno != EOPNOTSUPP && errno != ENOSYS)) return written;
     const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     void* copy = mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

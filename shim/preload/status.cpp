@@ -109,7 +109,8 @@ void tell(const char* event, const std::string& text) {
     const QuietThread quiet;
     const int file = open_status_file();
     if (file < 0) return;
-    write_quietly(file, make_line(std::string(event) + " " + text), write_once);
+    const std::string who = std::string(event) + "@" + std::to_string(getpid());
+    write_quietly(file, make_line(who + " " + text), write_once);
     close(file);
 }
 

@@ -5,38 +5,19 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
-#include <stdexcept>
 
-#include "capture/engine_pass.h"
-#include "capture/engine_target.h"
+#include "shim/preload/feedback_pass.h"
 
 namespace glcast::preload {
 namespace {
 
-constexpr std::size_t first_feedback = 1 << 20, most_feedback = std::size_t(1) << 28; // floats
-constexpr int vertex_floats = 7;                                                       // GL_3D_COLOR with RGBA
-
-/// From window coordinates of the z view to the capture frame.
-class Lattice {
-  public:
-    Lattice(const Box& box, int pixels)
-        : to_capture(glm::inverse(lattice_projection(box, Axis::z))), size(pixels) {}
-
-    glm::dvec3 point(const GLfloat* v) const {
-        const glm::dvec4 clip(2.0 * v[0] / size - 1, 2.0 * v[1] / size - 1, 2.0 * v[2] - 1, 1);
-        return glm::dvec3(to_capture * clip);
-    }
-
-  private:
-    const glm::dmat4 to_capture;
-    const double size;
-};
+constexpr int vertex_floats = 7; // GL_3D_COLOR with RGBA
 
 glm::vec4 colour(const GLfloat* v) { return glm::make_vec4(v + 3); }
 
-std::vector<Stroke> read_strokes(const std::vector<GLfloat>& values, std::size_t count, const Lattice& lattice) {
+std::vector<Stroke> read_strokes(const std::vector<GLfloat>& values, const FeedbackLattice& lattice) {
     std::vector<Stroke> strokes;
-    const GLfloat *at = values.data(), *end = at + count;
+    const GLfloat *at = values.data(), *end = at + values.size();
     while (at < end) {
         const auto token = static_cast<GLenum>(*at++);
         if (token == GL_POINT_TOKEN) {
@@ -100,27 +81,8 @@ void draw_stroke(const Stroke& stroke, double half, const GlTable& gl) {
 
 } // namespace
 
-std::vector<Stroke> collect_strokes(const GlTable& real, const DrawFunction& draw, const EngineOptions& options) {
-    constexpr int pixels = 64; // nothing is rasterised; window coordinates are not rounded
-    const GlTable gl = with_framebuffer_calls(real);
-    const Target target(gl, pixels, false);
-    if (!target.complete()) return {};
-    Pass pass;
-    pass.box = *options.box;
-    std::vector<GLfloat> values(first_feedback);
-    for (;;) {
-        GLint used = 0;
-        const DrawFunction listen = [&](const GlTable& table) {
-            gl.FeedbackBuffer(static_cast<GLsizei>(values.size()), GL_3D_COLOR, values.data());
-            gl.RenderMode(GL_FEEDBACK);
-            draw(table);
-            used = gl.RenderMode(GL_RENDER);
-        };
-        PassRunner(gl, listen, options).run(pass, target);
-        if (used >= 0) return read_strokes(values, static_cast<std::size_t>(used), Lattice(*options.box, pixels));
-        if (values.size() >= most_feedback) throw std::runtime_error("too many lines and points to make solid");
-        values.resize(values.size() * 4);
-    }
+std::vector<Stroke> collect_strokes(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options) {
+    return read_strokes(feed_back(gl, draw, options, GL_3D_COLOR), FeedbackLattice(*options.box));
 }
 
 void draw_strokes(const std::vector<Stroke>& strokes, double half_width, const glm::dmat4& eye_to_capture,

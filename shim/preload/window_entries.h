@@ -1,4 +1,4 @@
-// The GLX and EGL calls that are interposed; everything else of GLX and EGL is the real thing.
+// The calls of GLX, EGL and OSMesa that are interposed; everything else of them is the real thing.
 #pragma once
 #include <cstddef>
 
@@ -16,5 +16,6 @@ struct WindowEntries {
 };
 WindowEntries glx_entries();
 WindowEntries egl_entries();
+WindowEntries osmesa_entries();
 
 } // namespace glcast::preload

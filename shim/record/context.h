@@ -159,6 +159,7 @@ struct Context {
     void count(const std::string& reason, long times = 1);
     void note_draw() {
         if (recording) ++recording->draws;
+        if (compilation) compilation->stream->draws = true;
     }
     void note_list_call() {
         if (!recording) return;

@@ -36,6 +36,12 @@ void start_recording(Context& context) {
     copy_nameless_textures(context);
 }
 
+void name_counts(Recording& recording) {
+    for (std::size_t i = 0; i < gl_call_count; ++i)
+        if (recording.counts[i])
+            recording.frame->not_understood[gl_call_names[i]] += std::exchange(recording.counts[i], 0);
+}
+
 } // namespace
 
 const char* busy(const Context& shadow) {
@@ -79,10 +85,19 @@ std::shared_ptr<const Frame> end_frame(Context& context, std::string* why) {
         if (why) *why = recording->given_up;
         return nullptr;
     }
-    for (std::size_t i = 0; i < gl_call_count; ++i)
-        if (recording->counts[i]) recording->frame->not_understood[gl_call_names[i]] += recording->counts[i];
+    name_counts(*recording);
+    recording->frame->prepared = nullptr; // by a look at a part of it (frame_so_far)
     return recording->frame;
 }
+
+std::shared_ptr<const Frame> frame_so_far(Context& context) {
+    if (!context.recording || !context.recording->given_up.empty()) return nullptr;
+    name_counts(*context.recording);
+    context.recording->frame->prepared = nullptr; // for what was recorded then
+    return context.recording->frame;
+}
+
+std::uint64_t draws_so_far(const Context& context) { return context.recording ? context.recording->draws : 0; }
 
 const std::map<std::string, long>& not_understood(const Frame& frame) { return frame.not_understood; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shim/record/arrays.h"
 #include "shim/record/packets.h"
 #include "shim/record/state.h"
 
@@ -80,6 +81,12 @@ void follow_list(Context& context, GLuint name) {
     const List list = find_list(context, name);
     if (!list) return;
     if (list->opaque && context.executes()) context.count("a display list whose contents are unknown");
+    if (context.compilation) {
+        context.compilation->stream->draws |= list->draws;
+        context.compilation->stream->sets_program |= list->sets_program;
+    }
+    if (list->draws && list->sets_program && context.executes()) context.count("a draw under a GLSL program");
+    if (list->draws && !list->sets_program) count_if_not_played(context);
     if (list->begin_state == Stream::BeginState::unchanged) return;
     if (context.compilation) context.compilation->stream->begin_state = list->begin_state;
     if (context.executes()) context.in_begin = list->begin_state == Stream::BeginState::inside;

@@ -59,6 +59,10 @@ struct Frame;
 void begin_frame(Context& context);
 /// Ends the recording. Null when it had to be given up (out of memory), with the reason in `why`.
 std::shared_ptr<const Frame> end_frame(Context& context, std::string* why = nullptr);
+/// What is recorded so far, for a look at it before the context's next call; the recording goes on. Null as above.
+std::shared_ptr<const Frame> frame_so_far(Context& context);
+/// Draws and calls of lists in it; 0 where nothing is recorded.
+std::uint64_t draws_so_far(const Context& context);
 
 /// What was called in the frame but not recorded, by entry point or reason -> how often.
 const std::map<std::string, long>& not_understood(const Frame& frame);

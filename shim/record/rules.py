@@ -54,7 +54,7 @@ CLASSES = [
         ClearBuffer(fv|iv|uiv|fi) Invalidate.* (Push|Pop)(DebugGroup|GroupMarker.*) (Push|Pop)GroupMarkerEXT
         DebugMessage.* Object(Ptr)?Label InsertEventMarkerEXT LabelObjectEXT StringMarkerGREMEDY FrameTerminatorGREMEDY
         MemoryBarrier.* TextureBarrier(NV)? LockArraysEXT UnlockArraysEXT Accum CopyPixels ResizeBuffersMESA
-        SampleCoverage MinSampleShading ActiveStencilFaceEXT StencilFuncSeparateATI BufferParameteriAPPLE
+        SampleCoverage MinSampleShading BufferParameteriAPPLE
         .*Color(Sub)?Table.* .*Convolution.* SeparableFilter.* (Reset)?Histogram.* (Reset)?Minmax.* Object(Unp|P)urgeableAPPLE
         .*FragmentShaderATI PassTexCoordATI SampleMapATI (Color|Alpha)FragmentOp[123]ATI SetFragmentShaderConstantATI
         Combiner.*NV FinalCombinerInputNV (Begin|End)OcclusionQueryNV SamplePattern(EXT|SGIS) VertexWeighthv?NV
@@ -67,7 +67,7 @@ CLASSES = [
         Material[fi]v? MatrixMode Mult(Transpose)?Matrix[df] MultiTexCoord[1-4][dfis]v? Normal3[bdfis]v? Ortho
         PixelMap(fv|uiv|usv) PixelTransfer[fi] PixelZoom PointParameter[fi]v? PointSize Polygon(Mode|Offset) PushAttrib
         PushMatrix RasterPos[234][dfis]v? Rect[dfis] Rotate[df] Scale[df] Scissor SecondaryColor3[bdfisu]+v? ShadeModel
-        Stencil(Func|Mask|Op)(Separate)? TexCoord[1-4][dfis]v? TexEnv[fi]v? TexGen[dfi]v? TexParameter[fi]v?
+        Stencil(Func|Mask|Op)(Separate)? StencilFuncSeparateATI ActiveStencilFaceEXT TexCoord[1-4][dfis]v? TexEnv[fi]v? TexGen[dfi]v? TexParameter[fi]v?
         Translate[df] Vertex[234][dfis]v? VertexAttrib[1-4][dfs]v? VertexAttrib4N?(b|ub|i|ui|s|us)v? VertexAttrib4Nub
         (Vertex|TexCoord|MultiTexCoord|Normal|Color|SecondaryColor|VertexAttrib)P[1-4]uiv? Viewport WindowPos[23][dfis]v? BindFramebuffer(EXT)? ProvokingVertex ClampColor PolygonOffset(Clamp|EXT)
         (Vertex[234]|Normal3|Color[34]|SecondaryColor3|TexCoord[1-4]|MultiTexCoord[1-4]|FogCoord)hv?NV VertexAttrib[1-4]hv?NV
@@ -111,7 +111,6 @@ REASONS = [
     ("state of samplers and images of shaders", r"Sampler.* BindSampler.*"),
     ("tables and filters of ARB_imaging change images only, and no driver of today has them",
      r".*ColorTable.* .*ColorSubTable.* .*Convolution.* .*SeparableFilter.* .*Histogram.* .*Minmax.*"),
-    ("stencil is forced off in every view", r"ActiveStencilFaceEXT StencilFuncSeparateATI"),
     ("what may be thrown away", r"Object(Unp|P)urgeableAPPLE BufferParameteriAPPLE"),
 ]
 

@@ -189,8 +189,10 @@ void play_RenderMode(Player& player, const Packet& packet) {
 }
 
 void APIENTRY UseProgram(GLuint program) {
-    if (Context* context = listening_context())
+    if (Context* context = listening_context()) {
+        if (context->compilation && program != 0) context->compilation->stream->sets_program = true;
         context->emit(true, [&](Stream& stream) { packets::UseProgram::write(stream, program); });
+    }
     this_thread.real->UseProgram(program);
 }
 

@@ -89,6 +89,8 @@ class Stream {
     /// How a list leaves Begin/End: glBegin in one list and glEnd in another is legal.
     enum class BeginState : std::uint8_t { unchanged, inside, outside };
     BeginState begin_state = BeginState::unchanged;
+    bool draws = false;        ///< it, or a list that it calls
+    bool sets_program = false; ///< likewise: a GLSL program is used in it
     bool opaque = false; ///< GL has this list and we do not know its contents (glXUseXFont, out of memory)
 
   private:

@@ -129,3 +129,124 @@ TEST(ThreeMf, ReadBackByLib3mfWithUnitAndColours) {
     }
     for (PLib3MFBase* of : {handler, object, objects, reader, model}) lib3mf_release(of);
 }
+
+namespace {
+
+/// A .3mf of lib3mf's own making, as other programs write it.
+class Made {
+  public:
+    Made() { ok(NMR::lib3mf_createmodel(&model)); }
+    ~Made() {
+        for (NMR::PLib3MFBase* of : handles) NMR::lib3mf_release(of);
+        NMR::lib3mf_release(model);
+    }
+    NMR::PLib3MFBase* mesh(const Mesh& from) {
+        NMR::PLib3MFBase* object = nullptr;
+        ok(NMR::lib3mf_model_addmeshobject(model, &object));
+        for (const glm::dvec3& p : from.positions) {
+            NMR::MODELMESHVERTEX vertex{{float(p.x), float(p.y), float(p.z)}};
+            ok(NMR::lib3mf_meshobject_addvertex(object, &vertex, nullptr));
+        }
+        for (const Triangle& t : from.triangles) {
+            NMR::MODELMESHTRIANGLE triangle{{t[0], t[1], t[2]}};
+            ok(NMR::lib3mf_meshobject_addtriangle(object, &triangle, nullptr));
+        }
+        return kept(object);
+    }
+    NMR::PLib3MFBase* assembly(const std::vector<NMR::PLib3MFBase*>& parts, NMR::MODELTRANSFORM transform) {
+        NMR::PLib3MFBase *object = nullptr, *component = nullptr;
+        ok(NMR::lib3mf_model_addcomponentsobject(model, &object));
+        for (NMR::PLib3MFBase* part : parts) {
+            ok(NMR::lib3mf_componentsobject_addcomponent(object, part, &transform, &component));
+            kept(component);
+        }
+        return kept(object);
+    }
+    /// The object's colour, of a group of base materials.
+    void paint(NMR::PLib3MFBase* object, std::array<BYTE, 3> colour) {
+        NMR::PLib3MFBase *group = nullptr, *whole = nullptr;
+        DWORD id = 0, index = 0;
+        ok(NMR::lib3mf_model_addbasematerialgroup(model, &group));
+        ok(NMR::lib3mf_basematerial_addmaterialutf8(kept(group), "paint", colour[0], colour[1], colour[2], &index));
+        ok(NMR::lib3mf_resource_getresourceid(group, &id));
+        ok(NMR::lib3mf_object_createdefaultpropertyhandler(object, &whole));
+        ok(NMR::lib3mf_defaultpropertyhandler_setbasematerial(kept(whole), id, index));
+    }
+    void build(NMR::PLib3MFBase* object, NMR::MODELTRANSFORM transform) {
+        NMR::PLib3MFBase* item = nullptr;
+        ok(NMR::lib3mf_model_addbuilditem(model, object, &transform, &item));
+        kept(item);
+    }
+    void write(const std::filesystem::path& path) {
+        NMR::PLib3MFBase* writer = nullptr;
+        ok(NMR::lib3mf_model_querywriter(model, "3mf", &writer));
+        ok(NMR::lib3mf_writer_writetofileutf8(kept(writer), path.c_str()));
+    }
+
+  private:
+    static void ok(LIB3MFRESULT result) { ASSERT_EQ(result, 0); }
+    NMR::PLib3MFBase* kept(NMR::PLib3MFBase* of) { return handles.emplace_back(of); }
+
+    NMR::PLib3MFBase* model = nullptr;
+    std::vector<NMR::PLib3MFBase*> handles;
+};
+
+constexpr NMR::MODELTRANSFORM moved_by_ten{{{1, 0, 0, 10}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
+    mirrored_and_doubled{{{-2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 5}}};
+
+} // namespace
+
+TEST(ThreeMf, ComesBackWithItsColours) {
+    const Folder folder;
+    const Level level = level_of(torus(20, 12));
+    write(folder / "t.3mf", level, "inch");
+    const Level read = read_levels(folder / "t.3mf").at(0);
+    const MeshCheck check = check_mesh(read.mesh);
+    EXPECT_TRUE(check.closed_manifold());
+    EXPECT_NEAR(check.volume, check_mesh(level.mesh).volume, 1e-5) << "in its own units";
+    ASSERT_EQ(read.mesh.positions.size(), level.mesh.positions.size());
+    ASSERT_EQ(read.mesh.colours.size(), level.mesh.colours.size());
+    for (std::size_t v = 0; v < read.mesh.positions.size(); ++v) {
+        EXPECT_LT(glm::distance(read.mesh.positions[v], level.mesh.positions[v]), 1e-5);
+        EXPECT_LT(glm::distance(read.mesh.colours[v], level.mesh.colours[v]), 0.005f);
+    }
+}
+
+/// What is built, with the transforms on the way; what lies in the file and is not built is not there.
+TEST(ThreeMf, OfOthersIsReadWithTransformsAndMaterials) {
+    const Folder folder;
+    Made made;
+    NMR::PLib3MFBase* const part = made.mesh(tetrahedron());
+    made.paint(part, {200, 100, 50});
+    made.mesh(torus(6, 4));
+    made.build(made.assembly({part, part}, moved_by_ten), mirrored_and_doubled);
+    made.build(part, moved_by_ten);
+    made.write(folder / "a.3mf");
+    const Level read = read_levels(folder / "a.3mf").at(0);
+    const MeshCheck check = check_mesh(read.mesh);
+    EXPECT_TRUE(check.closed_manifold());
+    EXPECT_EQ(check.triangles, 12u);
+    EXPECT_NEAR(check.volume, (2 * 8 + 1) / 6.0, 1e-6) << "a mirrored one keeps its outside";
+    EXPECT_NEAR(read.mesh.positions[0].x, -20, 1e-6);
+    EXPECT_NEAR(read.mesh.positions[0].z, 5, 1e-6);
+    EXPECT_NEAR(read.mesh.positions[8].x, 10, 1e-6);
+    ASSERT_FALSE(read.mesh.colours.empty());
+    for (const glm::vec3& colour : read.mesh.colours)
+        EXPECT_LT(glm::distance(colour, glm::vec3(200, 100, 50) / 255.0f), 0.005f);
+}
+
+/// Components of components that double: refused before there is a billion of them.
+TEST(ThreeMf, AFileThatMultipliesIsRefused) {
+    const Folder folder;
+    Made made;
+    NMR::PLib3MFBase* object = made.mesh(tetrahedron());
+    for (int k = 0; k < 30; ++k) object = made.assembly({object, object}, moved_by_ten);
+    made.build(object, moved_by_ten);
+    made.write(folder / "many.3mf");
+    try {
+        read_levels(folder / "many.3mf");
+        ADD_FAILURE() << "was read";
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+    }
+}

@@ -9,6 +9,7 @@
 
 #include "tests/file/file_tools.h"
 #include "tests/file/textured_torus.h"
+#include "tools/io/glb_container.h"
 #include "tools/io/mesh_io.h"
 #include "tools/mesh/check.h"
 
@@ -100,7 +101,7 @@ TEST(WedgesInFiles, ComeBackFromGlb) {
     }
 }
 
-TEST(WedgesInFiles, ComeBackFromPlyAndTheirNormalsFromObj) {
+TEST(WedgesInFiles, ComeBackFromPlyAndObj) {
     const Folder folder;
     const Level level = cube();
     write_levels(folder / "c.ply", std::vector{level});
@@ -112,8 +113,7 @@ TEST(WedgesInFiles, ComeBackFromPlyAndTheirNormalsFromObj) {
     const Level obj = read_levels(folder / "c.obj").at(0);
     expect_closed(obj, 8);
     EXPECT_EQ(obj.wedges.normals.size(), 24u);
-    EXPECT_TRUE(by_place(obj, true, false) == by_place(level, true, false));
-    EXPECT_EQ(obj.mesh.colours.size(), 8u);
+    EXPECT_TRUE(by_place(obj, true, true) == by_place(level, true, true)) << "a material a colour";
 }
 
 TEST(WedgesInFiles, StandBesideSeamsOfATexture) {
@@ -132,6 +132,7 @@ TEST(WedgesInFiles, StandBesideSeamsOfATexture) {
     }
 }
 
+/// In .glb a mesh for each of the six colours, with vertices of its own.
 TEST(WedgesInFiles, AreSplitVerticesForOthers) {
     const Folder folder;
     write_levels(folder / "c.glb", std::vector{cube()});
@@ -140,20 +141,90 @@ TEST(WedgesInFiles, AreSplitVerticesForOthers) {
         SCOPED_TRACE(name);
         const Scene read((folder / name).string());
         ASSERT_TRUE(read.scene) << aiGetErrorString();
-        ASSERT_EQ(read.scene->mNumMeshes, 1u);
-        const aiMesh& mesh = *read.scene->mMeshes[0];
-        EXPECT_EQ(mesh.mNumFaces, 12u);
-        if (std::string(name) == "c.glb") {
-            EXPECT_EQ(mesh.mNumVertices, 24u);
+        ASSERT_EQ(read.scene->mNumMeshes, std::string(name) == "c.glb" ? 6u : 1u);
+        unsigned faces = 0, vertices = 0;
+        for (unsigned m = 0; m < read.scene->mNumMeshes; ++m) {
+            const aiMesh& mesh = *read.scene->mMeshes[m];
+            faces += mesh.mNumFaces, vertices += mesh.mNumVertices;
+            EXPECT_FALSE(mesh.HasVertexColors(0)) << "they would be multiplied by the material's";
+            ASSERT_TRUE(mesh.HasNormals());
+            for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+                const auto& i = mesh.mFaces[f].mIndices;
+                const aiVector3D face = ((mesh.mVertices[i[1]] - mesh.mVertices[i[0]]) ^
+                                         (mesh.mVertices[i[2]] - mesh.mVertices[i[0]])).Normalize();
+                for (int k = 0; k < 3; ++k) EXPECT_GT(face * mesh.mNormals[i[k]], 0.999f) << f;
+            }
         }
-        ASSERT_TRUE(mesh.HasNormals());
-        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-            const auto& i = mesh.mFaces[f].mIndices;
-            const aiVector3D face = ((mesh.mVertices[i[1]] - mesh.mVertices[i[0]]) ^
-                                     (mesh.mVertices[i[2]] - mesh.mVertices[i[0]])).Normalize();
-            for (int k = 0; k < 3; ++k) EXPECT_GT(face * mesh.mNormals[i[k]], 0.999f) << f;
+        EXPECT_EQ(faces, 12u);
+        if (std::string(name) == "c.glb") {
+            EXPECT_EQ(vertices, 24u);
         }
     }
+}
+
+/// Blender 3.4 and Godot 3.2 show no COLOR_0; all multiply it by the material's.
+TEST(PlainColours, AreMaterialsInGlb) {
+    const Folder folder;
+    Level one = cube(), mixed = cube();
+    std::fill(one.mesh.colours.begin(), one.mesh.colours.end(), glm::vec3(0.2f, 0.5f, 1));
+    one.wedges.colours.clear();
+    mixed.wedges.colours[0] = {1, 1, 1};
+    const auto json_of = [&](const Level& level) {
+        write_levels(folder / "c.glb", std::vector{level});
+        return format::glb_chunks(read_text(folder / "c.glb")).json;
+    };
+    for (const auto& [level, materials] : {std::pair{one, 1u}, {cube(), 6u}}) {
+        const auto json = json_of(level);
+        EXPECT_EQ(json["materials"].size(), materials);
+        EXPECT_EQ(json["meshes"].size(), 1u);
+        ASSERT_EQ(json["meshes"][0]["primitives"].size(), materials);
+        for (const auto& primitive : json["meshes"][0]["primitives"]) {
+            EXPECT_FALSE(primitive["attributes"].contains("COLOR_0"));
+            EXPECT_TRUE(json["materials"][primitive["material"].get<int>()]["pbrMetallicRoughness"].contains("baseColorFactor"));
+        }
+        const Level read = read_levels(folder / "c.glb").at(0);
+        expect_closed(read, 8);
+        EXPECT_TRUE(by_place(read, true, true) == by_place(level, true, true));
+    }
+    const auto json = json_of(mixed);
+    ASSERT_EQ(json["meshes"][0]["primitives"].size(), 1u);
+    EXPECT_TRUE(json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+    EXPECT_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("baseColorFactor"));
+    EXPECT_TRUE(by_place(read_levels(folder / "c.glb").at(0), true, true) == by_place(mixed, true, true));
+}
+
+/// What says which vertices are one may be damaged: then they stay apart.
+TEST(PlainColours, StayApartWhereTheFileDoesNotFit) {
+    const Folder folder;
+    write_levels(folder / "c.glb", std::vector{cube()});
+    const std::string file = read_text(folder / "c.glb");
+    format::GlbChunks chunks = format::glb_chunks(file);
+    const auto primitive = chunks.json["meshes"][0]["primitives"][0];
+    for (const int wrong : {primitive["indices"].get<int>(), primitive["attributes"]["POSITION"].get<int>(), 1000}) {
+        chunks.json["meshes"][0]["extras"]["vertices"] = wrong;
+        const std::string_view bytes = chunks.bytes;
+        write_text(folder / "d.glb", format::glb_head(chunks.json, bytes.size()) + std::string(bytes) +
+                                         std::string(format::glb_padding(bytes.size()), '\0'));
+        EXPECT_EQ(read_levels(folder / "d.glb").at(0).mesh.positions.size(), 24u) << wrong;
+    }
+}
+
+TEST(PlainColours, AreAPictureInObjAndOthersHaveALine) {
+    const Folder folder;
+    write_levels(folder / "c.obj", std::vector{cube()});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"c.colour.png", "c.mtl", "c.obj"}));
+    EXPECT_EQ(note_on(folder / "c.obj", cube()), "");
+    const std::string obj = read_text(folder / "c.obj"), mtl = read_text(folder / "c.mtl");
+    EXPECT_NE(obj.find("vt 0.0625 0.5\n"), obj.npos) << "the first of eight squares";
+    EXPECT_NE(mtl.find("Kd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd c.colour.png\n"), mtl.npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "c.colour.png"));
+    EXPECT_NE(obj.find("v 1 1 1\n"), obj.npos) << "no colours behind: readers multiply them";
+    Level mixed = cube();
+    mixed.wedges.colours[0] = {1, 1, 1};
+    EXPECT_NE(note_on(folder / "c.obj", mixed).find("one colour"), std::string::npos);
+    EXPECT_NE(note_on(folder / "c.off", cube()).find("one colour"), std::string::npos);
+    EXPECT_EQ(note_on(folder / "c.ply", mixed), "");
+    EXPECT_EQ(note_on(folder / "c.obj", creased_torus()), "") << "a texture has them";
 }
 
 TEST(WedgesInFiles, KhronosValidatorFindsNothing) {
@@ -179,4 +250,27 @@ TEST(WedgesInFiles, EqualCornersAreNoWedges) {
     const Wedges one = take_corner_values(mesh, normals, {});
     EXPECT_EQ(one.normals.size(), mesh.positions.size() + 1);
     EXPECT_TRUE(one.colours.empty());
+}
+
+/// What a file holds is what was checked; what floats would spoil stays.
+TEST(Floats, HoldWhatIsCheckedBefore) {
+    const Folder folder;
+    Level level{torus(12, 8), "level 0"};
+    const std::vector<glm::dvec3> before = level.mesh.positions;
+    hold_in_floats(level.mesh);
+    EXPECT_NE(level.mesh.positions, before);
+    write_levels(folder / "t.ply", std::vector{level});
+    EXPECT_NE(read_text(folder / "t.ply").find("property float x"), std::string::npos);
+    for (const char* name : {"t.ply", "t.glb"}) {
+        write_levels(folder / name, std::vector{level});
+        EXPECT_EQ(read_mesh(folder / name).positions, level.mesh.positions) << name;
+    }
+    Mesh far = torus(12, 8), close = torus(12, 8);
+    for (glm::dvec3& p : far.positions) p.x += 4'500'000;
+    close.positions[1] = close.positions[0] + glm::dvec3(1e-12, 0, 0);
+    for (Mesh* mesh : {&far, &close}) {
+        const std::vector<glm::dvec3> kept = mesh->positions;
+        hold_in_floats(*mesh);
+        EXPECT_EQ(mesh->positions, kept);
+    }
 }

@@ -94,4 +94,20 @@ CaptureDifference compare(const Capture& a, const Capture& b) {
     return difference;
 }
 
+double volume(const Capture& capture) {
+    const int n = capture.info.n;
+    double sum = 0;
+    for (const ViewImage& image : capture.images) {
+        if (image.view.axis != Axis::z || image.view.layer != 0) continue;
+        const double sign = image.view.side == Side::plus ? 1 : -1;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const std::size_t at = std::size_t(j) * n + i;
+                if (image.covered(at))
+                    sum += sign * lattice_point(capture.info.box, n, Axis::z, i, j, image.depth[at]).z;
+            }
+    }
+    return std::abs(sum) * std::pow(capture.info.box.size / n, 2);
+}
+
 } // namespace glcast::test

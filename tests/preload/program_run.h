@@ -34,6 +34,9 @@ FixtureRun cast_fixture(const std::vector<std::string>& arguments, const Environ
 /// Lines of stderr that begin with "glcast: ", without that.
 std::vector<std::string> glcast_lines(const Outcome& outcome);
 
+/// Of a body that no line along z meets more than once: what lies between the first and the last hits.
+double volume(const Capture& capture);
+
 /// Largest difference of two captures: depth where both are covered, normals likewise, pixels covered by one
 /// alone.
 struct CaptureDifference {

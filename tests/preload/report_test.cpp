@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "tests/preload/program_run.h"
 
@@ -120,9 +121,16 @@ TEST(Report, status_file_tells_the_events) {
     run_program(cube, environment, true);
     std::ifstream file(folder / "status");
     std::vector<std::string> events;
-    for (std::string line; std::getline(file, line);) events.push_back(line);
+    std::set<std::string> processes;
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t at = line.find('@'), space = line.find(' ');
+        ASSERT_LT(at, space) << line;
+        processes.insert(line.substr(at, space - at));
+        events.push_back(line.erase(at, space - at));
+    }
     ASSERT_EQ(events.size(), 4u);
-    EXPECT_EQ(events[0], "hooked GLX");
+    EXPECT_EQ(processes.size(), 1u);
+    EXPECT_EQ(events[0], "hooked GLX fixture-glx");
     EXPECT_EQ(events[1], "casting 1");
     EXPECT_TRUE(events[2].starts_with("figures (n=32, ")) << events[2];
     EXPECT_EQ(events[3], "captured 1 " + (folder / "cast.exr"));

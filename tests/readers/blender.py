@@ -44,16 +44,20 @@ def show_colours(item):
     item.data.materials.append(material)
 
 
-def use_vertex_colours():
-    """Blender 3.4's glTF importer makes the attribute and leaves the material white."""
+def shaders():
     for item in shown:
-        name = colour_attribute(item.data)
         for material in item.data.materials:
             shader = material and material.use_nodes and material.node_tree.nodes.get("Principled BSDF")
-            if name and shader and not shader.inputs["Base Color"].is_linked:
-                colours = material.node_tree.nodes.new("ShaderNodeVertexColor")
-                colours.layer_name = name
-                material.node_tree.links.new(colours.outputs[0], shader.inputs["Base Color"])
+            if shader:
+                yield shader
+
+
+def has_shown_colours():
+    """Of materials, as the importer left them; without materials, colours that wait for one."""
+    if not any(o.data.materials for o in shown):
+        return any(colour_attribute(o.data) for o in shown)
+    inputs = [shader.inputs["Base Color"] for shader in shaders()]
+    return any(i.is_linked for i in inputs) or len({tuple(i.default_value) for i in inputs}) > 1
 
 
 def corner_normals(mesh):
@@ -82,13 +86,12 @@ print("found: " + json.dumps({
     "triangles": sum(len(p.vertices) - 2 for o in shown for p in o.data.polygons),
     "hidden": sum(o.type == "MESH" for o in bpy.data.objects) - len(shown),
     "textures": [list(size) for size in images],
-    "colours": any(colour_attribute(o.data) for o in shown),
+    "colours": has_shown_colours(),
     "normals": all(o.data.has_custom_normals for o in shown) if shown else False,
     "creases": any(has_creases(o.data) for o in shown),
 }))
 for item in shown:
     show_colours(item)
-use_vertex_colours()
 
 centre, size = (Vector(low) + Vector(high)) / 2, (Vector(high) - Vector(low)).length
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))

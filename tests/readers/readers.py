@@ -105,12 +105,19 @@ def assimp(file, picture, place):
     faces = re.search(r"^Faces:\s+(\d+)", output, re.M)
     if status != 0 or not faces:
         raise Refused(output.strip().splitlines()[-1])
-    shown = re.findall(r"^\s+\d+ \(.*\): \[\d+ / \d+ / \d+ \| triangle\]", output, re.M)
+    shown = re.findall(r"^(.*) \(mesh [\d, ]+\)$", output.split("Node hierarchy:")[-1], re.M)
     textures = re.findall(r"\$tex\.file\).*\| (Diffuse|Normals)\]", output)
     status, dump = run(["assimp", "export", file, place / "assimp.ply", "-fplyb"], place)
     header = (place / "assimp.ply").read_bytes().split(b"end_header")[0].decode() if status == 0 else ""
-    return {"names": [str(k) for k, _ in enumerate(shown)], "triangles": int(faces[1]), "textures": [[0, 0] for _ in textures],
-            "hidden": 0, "colours": "property" in header and "red" in header, "normals": "property float nx" in header}
+    return {"names": shown, "triangles": int(faces[1]), "textures": [[0, 0] for _ in textures],
+            "hidden": 0, "colours": "red" in header or assimp_materials(file, place) > 1, "normals": "property float nx" in header}
+
+
+def assimp_materials(file, place):
+    """How many different colours the materials have."""
+    xml = place / "assimp.xml"
+    run(["assimp", "dump", file, xml], place)
+    return len(set(re.findall(r'key="\$clr.diffuse"[^>]*>\s*([\d. ]+)', xml.read_text(errors="replace")))) if xml.exists() else 0
 
 
 def f3d(file, picture, place):
@@ -120,11 +127,15 @@ def f3d(file, picture, place):
     if status != 0 or not picture.exists():
         raise Refused((output.strip().splitlines() or [f"ended with {status}"])[-1])
     counts = [int(count) for count in re.findall(r"Number of polygons: (\d+)", output)]
-    if not counts:  # of an .obj it tells nothing: the picture shows it
-        return {"names": None, "triangles": None, "textures": None, "hidden": 0, "colours": None, "normals": None}
-    return {"names": re.findall(r"^(.*) Primitive Geometry:", output, re.M) or [file.stem], "triangles": sum(counts),
+    materials = set(re.findall(r"diffuse color \(([^)]*)\)", output))
+    if not counts:  # of an .obj it tells nothing but materials: the picture shows it
+        return {"names": None, "triangles": None, "textures": None, "hidden": 0, "colours": len(materials) > 1 or None, "normals": None}
+    parts = re.findall(r"^(.*) Primitive Geometry:", output, re.M)
+    return {"names": sorted(set(parts)) or [file.stem], "triangles": sum(counts),
             "textures": [[0, 0]] if "TEXCOORD" in output else [], "hidden": 0,
-            "colours": bool(re.search(r"RGB :|COLOR", output)), "normals": bool(re.search(r"normals? :", output, re.I))}
+            # Of materials' colours it tells nothing: a part for each is what the picture shows.
+            "colours": bool(re.search(r"RGB :|COLOR", output)) or len(parts) > 1,
+            "normals": bool(re.search(r"normals? :", output, re.I))}
 
 
 def web(reader, endings):

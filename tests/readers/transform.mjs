@@ -12,7 +12,8 @@ const root = (await io.read(process.argv[2])).getRoot(), names = [], primitives 
   names.push(node.getName());
   primitives.push(...node.getMesh().listPrimitives());
 });
+const colours = new Set(root.listMaterials().map((material) => material.getBaseColorFactor().join()));
 const has = (semantic) => primitives.some((p) => p.listSemantics().includes(semantic));
 console.log(`found: ${JSON.stringify({ names, hidden: root.listMeshes().length - names.length,
   triangles: primitives.reduce((n, p) => n + p.getIndices().getCount() / 3, 0),
-  textures: root.listTextures().map((texture) => texture.getSize()), colours: has('COLOR_0'), normals: has('NORMAL') })}`);
+  textures: root.listTextures().map((texture) => texture.getSize()), colours: has('COLOR_0') || colours.size > 1, normals: has('NORMAL') })}`);

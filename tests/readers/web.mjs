@@ -10,7 +10,15 @@ import { Chromium, softwareGl } from '../view/chromium.mjs';
 const [program, modules, reader, file, out] = process.argv.slice(2);
 const size = 320;
 
+// A mesh of several materials becomes an object for each, in a group that has the mesh's name.
+const asked = `
+const owners = (meshes) => [...new Set(meshes.map((m) => m.parent?.isGroup && m.parent.name ? m.parent : m))].map((m) => m.name);
+const coloured = (meshes) => meshes.some((m) => 'color' in m.geometry.attributes && [m.material].flat().every((one) => one.vertexColors)) ||
+  new Set(meshes.flatMap((m) => [m.material].flat().map((one) => one.color.getHexString()))).size > 1;
+`;
+
 const three = `
+${asked}
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { OBJLoader } from 'three/examples/jsm/loaders/OBJLoader.js';
@@ -70,15 +78,16 @@ window.load = async (extension, base64, others) => {
   renderer.render(world, camera);
   const image = (texture) => texture ? [[texture.image.width, texture.image.height]] : [];
   const each = (get) => meshes.flatMap((m) => [m.material].flat().flatMap(get));
-  return { names: meshes.map((m) => m.name), hidden: 0,
+  return { names: owners(meshes), hidden: 0,
     triangles: meshes.reduce((n, m) => n + (m.geometry.index ?? m.geometry.attributes.position).count / 3, 0),
     textures: each((m) => [...image(m.map), ...image(m.normalMap)]),
-    colours: meshes.some((m) => 'color' in m.geometry.attributes),
+    colours: coloured(meshes),
     normals: meshes.length > 0 && meshes.every((m) => 'normal' in m.geometry.attributes) };
 };
 window.ready = true;`;
 
 const viewer = `
+${asked}
 import '@google/model-viewer/dist/model-viewer.min.js';
 
 window.load = async (extension, base64) => {
@@ -99,9 +108,9 @@ window.load = async (extension, base64) => {
     if (object.isMesh && object.visible && object.geometry.index && object.geometry.index.count > 36) meshes.push(object);
   });
   const image = (texture) => texture ? [[texture.image.width, texture.image.height]] : [];
-  return { names: meshes.map((m) => m.name), hidden: 0, triangles: meshes.reduce((n, m) => n + m.geometry.index.count / 3, 0),
+  return { names: owners(meshes), hidden: 0, triangles: meshes.reduce((n, m) => n + m.geometry.index.count / 3, 0),
     textures: meshes.flatMap((m) => [...image(m.material.map), ...image(m.material.normalMap)]),
-    colours: meshes.some((m) => 'color' in m.geometry.attributes),
+    colours: coloured(meshes),
     normals: meshes.length > 0 && meshes.every((m) => 'normal' in m.geometry.attributes) };
 };
 window.ready = true;`;

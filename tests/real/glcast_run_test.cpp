@@ -21,9 +21,11 @@ TEST_F(GlcastRun, RefusesWrongUsage) {
     expect_refused({"--frame", "2", "--after", "1"}, 2, "excludes");
     expect_refused({"--normals", "eight"}, 2, "eight");
     for (const char* option : {"--after", "--timeout"})
-        for (const char* seconds : {"nan", "-nan", "inf", "-1", "1e9", "soon"}) expect_refused({option, seconds}, 2, seconds);
+        for (const char* seconds : {"nan", "-nan", "inf", "-1", "1e9", "soon"})
+            expect_refused({option, seconds}, 2, seconds);
     for (const char* key : {"nokey", "F99", "\x1b", ""}) expect_refused({"--key", key}, 2, "needs a key");
-    for (const char* signal : {"KILL", "SIGTERM", "99", "NONE"}) expect_refused({"--signal", signal}, 2, "needs a signal");
+    for (const char* signal : {"KILL", "SIGTERM", "99", "NONE"})
+        expect_refused({"--signal", signal}, 2, "needs a signal");
     for (const char* layers : {"many", "0", "257", "2.5", "-1"})
         expect_refused({std::string("--layers=") + layers}, 2, "from 1 to 256");
     expect_refused({"--no-such-option"}, 2, "--no-such-option");
@@ -81,8 +83,9 @@ TEST_F(GlcastRun, SaysFiguresWhenAsked) {
         EXPECT_EQ(result.exit_code, 0);
         return result.err;
     };
-    EXPECT_EQ(said({}), "glcast-run: frame 3 of sleep is cast in " + capture() + "; to look at it: glcast view " + capture() +
-                            " -o " + (folder / "a.html").string() + "\n");
+    EXPECT_EQ(said({}), "glcast-run: frame 3 of sleep is cast in " + capture() +
+                            "; to look at it: glcast view " + capture() + " -o " +
+                            (folder / "a.html").string() + "\n");
     EXPECT_THAT(said({"--verbose"}), StartsWith("glcast-run: frame 3: (n=8, 0.1 s)\n"));
 }
 
@@ -154,8 +157,8 @@ TEST_F(GlcastRun, NamesHeadlessWhereThereIsNoScreen) {
 }
 
 TEST_F(GlcastRun, WritesControlCharactersOut) {
-    const CommandResult failed = run({"--quit", "-o", capture(), "--", "sleep", nap},
-                                     "hooked GLX;failed a\x1b]0;title\x07 b\rc");
+    const CommandResult failed =
+        run({"--quit", "-o", capture(), "--", "sleep", nap}, "hooked GLX;failed a\x1b]0;title\x07 b\rc");
     EXPECT_THAT(failed.err, HasSubstr("a\\x1b]0"));
     EXPECT_THAT(failed.err, Not(HasSubstr("\x1b")));
     expect_refused({"-o", folder / "a\nb.txt"}, 2, "a\\x0ab.txt");
@@ -165,8 +168,9 @@ TEST_F(GlcastRun, WritesControlCharactersOut) {
 }
 
 TEST_F(GlcastRun, TellsAScriptInJson) {
-    const CommandResult cast = run({"--json", "--quit", "-o", capture(), "--", "sh", "-c", "echo drawn; exec sleep " + nap},
-                                   "hooked GLX;figures (n=8);captured 3 " + capture(), "sleep"); // when it has printed
+    const CommandResult cast =
+        run({"--json", "--quit", "-o", capture(), "--", "sh", "-c", "echo drawn; exec sleep " + nap},
+            "hooked GLX;figures (n=8);captured 3 " + capture(), "sleep"); // when it has printed
     EXPECT_EQ(cast.exit_code, 0) << cast.err;
     const auto told = nlohmann::json::parse(cast.out);
     EXPECT_EQ(told["program"], "sh");
@@ -233,6 +237,57 @@ TEST_F(GlcastRun, PreloadsFromAFolderWithASpace) {
             {{"GLCAST_LIBRARY", folder / "a b/libglcast.so"}});
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
+
+#ifdef TOY_SLEEP_I386
+class GlcastRun32 : public GlcastRun {
+  protected:
+    /// The toy as it is installed, for 64 bits, and for 32 when `both`.
+    std::string install(const std::string& prefix, bool both) {
+        // lib32 is what the loader of libc6-i386 puts for $LIB.
+        for (const auto& [lib, toy] :
+             {std::pair{"lib/x86_64-linux-gnu", TOY_SHIM}, std::pair{"lib/i386-linux-gnu", TOY_SHIM_I386},
+              std::pair{"lib32", TOY_SHIM_I386}}) {
+            const fs::path place = folder / prefix / lib / "glcast";
+            fs::create_directories(place);
+            if (both || std::string(toy) == TOY_SHIM) fs::copy_file(toy, place / "libglcast.so");
+        }
+        return folder / prefix;
+    }
+};
+
+TEST_F(GlcastRun32, IsRefusedWithoutItsLibrary) {
+    const std::string prefix = install("p", false);
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", TOY_SLEEP_I386, "1"}, "", "toy_sleep",
+            {{"GLCAST_LIBRARY", prefix + "/lib/x86_64-linux-gnu/glcast/libglcast.so"}});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("is a 32-bit program, and the library for those is not there"));
+    EXPECT_THAT(result.err, HasSubstr("libglcast0:i386"));
+}
+
+TEST_F(GlcastRun32, TakesItsOwnLibrary) {
+    for (const char* prefix : {"p", "a b"}) {
+        const std::string place = install(prefix, true);
+        for (const std::string& library :
+             {place + "/$LIB/glcast/libglcast.so", place + "/lib/x86_64-linux-gnu/glcast/libglcast.so"}) {
+            const CommandResult result =
+                run({"--quit", "-o", capture(), "--", TOY_SLEEP_I386, "30"},
+                    "hooked GLX;captured 1 " + capture(), "toy_sleep", {{"GLCAST_LIBRARY", library}});
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+            EXPECT_THAT(result.err, Not(HasSubstr("ELF class"))) << library;
+        }
+    }
+}
+
+TEST_F(GlcastRun32, IsStartedByAScriptOf64Bits) {
+    const std::string library = install("p", true) + "/$LIB/glcast/libglcast.so";
+    const CommandResult result =
+        run({"--quit", "-o", capture(), "--", "sh", "-c", std::string(TOY_SLEEP_I386) + " 30; true"},
+            "hooked GLX;captured 1 " + capture(), "toy_sleep", {{"GLCAST_LIBRARY", library}});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, Not(HasSubstr("ELF class")));
+}
+#endif
 
 TEST_F(GlcastRun, BringsItsOwnScreenAndTakesItAway) {
     const CommandResult result = run({"--headless", "-o", capture(), "--", "sh", "-c",

@@ -169,7 +169,7 @@ Run declare_mesh(CLI::App& app) {
         "By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n being the samples\n"
         "of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both ways, measured. What asks\n"
         "for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and nothing else.\n"
-        "A level has a texture where the colours and normals of its vertices would show it wrongly.\n"
+        "A level has plain colours by materials where these show it right, else a texture.\n"
         "Every level is a closed two-manifold and is measured against the full surface, or nothing is written.\n"
         "With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the\n"
         "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
@@ -226,7 +226,7 @@ Run declare_mesh(CLI::App& app) {
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();
     app.add_option("--texture", options->texture,
-                   "auto: levels that need it, as large as they need; none; or bake colours and normals of every level into "
+                   "auto: levels that plain colours would show wrongly, as large as they need; none; or bake colours and normals of every level into "
                    "textures so many texels wide: 64, 128, ... 8192")
         ->check(texture_size())
         ->capture_default_str();

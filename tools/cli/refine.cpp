@@ -7,6 +7,7 @@
 #include "tools/io/mesh_io.h"
 #include "tools/progressive/geomorph.h"
 #include "tools/progressive/stream.h"
+#include "tools/texture/wedge_fit.h"
 
 namespace glcast::cli {
 namespace {
@@ -50,9 +51,20 @@ void check_options(const Options& options) {
 
 struct Refined {
     Mesh mesh;
+    Wedges wedges; ///< of a level below the finest
     std::size_t level = 0, to = 0; ///< to: of a geomorph the finer one
     bool within = true;            ///< the level is as small as was asked for
 };
+
+/// As glcast mesh --pm fits them: to the finest mesh that the file has.
+void add_wedges(ProgressiveFile& file, Refined& out) {
+    if (out.level == file.mesh.splits()) return;
+    file.mesh.refine_to(file.mesh.splits());
+    Level level;
+    level.mesh = std::move(out.mesh);
+    fit_wedges(level, file.mesh.mesh());
+    out.mesh = std::move(level.mesh), out.wedges = std::move(level.wedges);
+}
 
 Refined refined(const Options& options, ProgressiveFile& file) {
     Refined out;
@@ -65,6 +77,7 @@ Refined refined(const Options& options, ProgressiveFile& file) {
     } else {
         file.mesh.refine_to(out.level);
         out.mesh = file.mesh.mesh();
+        add_wedges(file, out);
     }
     return out;
 }
@@ -109,7 +122,7 @@ int refine(const Options& options) {
     const Refined out = refined(options, file);
     const MeshCheck check = check_mesh(out.mesh);
     Level level;
-    level.mesh = out.mesh, level.sample = file.info.sample;
+    level.mesh = out.mesh, level.wedges = out.wedges, level.sample = file.info.sample;
     level.name = file.info.name.empty() ? "refined" : file.info.name;
     write_levels(options.output, {&level, 1});
     if (options.json)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "tools/io/exr_attributes.h"
@@ -14,7 +15,8 @@ using exr::Attributes;
 constexpr std::uint64_t largest_header =
     16u << 20; // hundreds of parts of a few kB each, and thousands of not-understood calls
 constexpr std::uint64_t best_ratio = 1100; // deflate makes 1032 bytes of one at most
-constexpr std::uint64_t bytes_per_pixel = 26;
+constexpr std::uint64_t bytes_per_pixel = 26; // at least
+constexpr int format_of_both_sides = 3;
 constexpr std::size_t most_parts = 3 * (max_layers + 1);
 
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
@@ -53,13 +55,21 @@ exr::Compression compression_of(const Attributes& header) {
     return static_cast<exr::Compression>(number);
 }
 
-std::array<bool, channel_count> channels_of(const Attributes& header) {
-    constexpr const char* names[channel_count] = {"A", "B", "G", "N.V", "N.X", "N.Y", "N.Z", "R", "Z"};
+std::span<const char* const> channel_names(bool both_sides) {
+    static constexpr const char* of_one[channel_count] = {"A", "B", "G", "N.V", "N.X", "N.Y", "N.Z", "R", "Z"};
+    static constexpr const char* of_both[both_channel_count] = {"A",   "B",   "G",     "N.V",   "N.X",   "N.Y",   "N.Z", "R",
+                                                                "T.B", "T.G", "T.N.V", "T.N.X", "T.N.Y", "T.N.Z", "T.R", "Z"};
+    if (both_sides) return of_both;
+    return of_one;
+}
+
+std::vector<bool> channels_of(const Attributes& header, bool both_sides) {
+    const auto names = channel_names(both_sides);
     constexpr int half = 1, whole_float = 2;
     const std::vector<exr::ChannelType> channels = exr::channels_value(header, "channels");
-    if (channels.size() != channel_count) damaged("channels");
-    std::array<bool, channel_count> is_half{};
-    for (std::size_t c = 0; c < channel_count; ++c) {
+    if (channels.size() != names.size()) damaged("channels");
+    std::vector<bool> is_half(names.size());
+    for (std::size_t c = 0; c < names.size(); ++c) {
         const exr::ChannelType& channel = channels[c];
         if (channel.name != names[c] || (channel.type != half && channel.type != whole_float) ||
             channel.x_sampling != 1 || channel.y_sampling != 1)
@@ -143,6 +153,7 @@ CaptureInfo info_of(const Attributes& header) {
     info.glcast_version = exr::string_value(header, "glcast.version");
     info.not_understood = counts_of(exr::strings_value(header, "glcast.notUnderstood"));
     read_layers(header, info);
+    info.both_sides = exr::int_value(header, "glcast.format") >= format_of_both_sides;
     return info;
 }
 
@@ -166,14 +177,14 @@ void check_the_same(const Attributes& first, const Attributes& header) {
     if (count(first) != count(header)) refuse("its parts differ in their attributes");
 }
 
-PartHeader part_of(const Attributes& header, int n) {
+PartHeader part_of(const Attributes& header, const CaptureInfo& info) {
     PartHeader part;
     part.view = view_of(header);
     part.compression = compression_of(header);
-    part.half = channels_of(header);
+    part.half = channels_of(header, info.both_sides);
     part.covered = exr::int_value(header, "glcast.covered");
     part.with_normal = exr::int_value(header, "glcast.withNormal");
-    check_standard(header, n, part.compression);
+    check_standard(header, info.n, part.compression);
     return part;
 }
 
@@ -208,7 +219,7 @@ CaptureHeader read_capture_header(const InputFile& file) {
     for (const Attributes& header : headers) {
         check_format(header);
         check_the_same(headers[0], header);
-        capture.parts.push_back(part_of(header, capture.info.n));
+        capture.parts.push_back(part_of(header, capture.info));
     }
     capture.tables_at = offset;
     return capture;

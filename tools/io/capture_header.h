@@ -10,15 +10,16 @@
 
 namespace glcast {
 
-/// In the order in which a part stores them: A B G N.V N.X N.Y N.Z R Z.
-inline constexpr std::size_t channel_count = 9;
+/// In the order in which a part stores them: A B G N.V N.X N.Y N.Z R Z; of both sides A B G N.V N.X N.Y N.Z R
+/// T.B T.G T.N.V T.N.X T.N.Y T.N.Z T.R Z.
+inline constexpr std::size_t channel_count = 9, both_channel_count = 16;
 
 /// What is of one part alone.
 struct PartHeader {
     View view;
     exr::Compression compression = exr::Compression::none;
     int covered = 0, with_normal = 0;       ///< pixels
-    std::array<bool, channel_count> half{}; ///< of each channel: 2 bytes a pixel, else 4
+    std::vector<bool> half; ///< of each channel: 2 bytes a pixel, else 4
 };
 
 struct CaptureHeader {

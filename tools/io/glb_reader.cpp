@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <set>
 #include <tiny_gltf.h>
 
@@ -123,19 +124,34 @@ class GlbReader {
     void add_mesh(Level& level, const tinygltf::Mesh& mesh, const glm::dmat4& m) {
         if (level.name.empty()) level.name = mesh.name;
         read_extras(mesh.extras, level);
+        const std::size_t first = level.mesh.positions.size();
         for (const tinygltf::Primitive& primitive : mesh.primitives) add_primitive(level.mesh, primitive, m);
-        const double seams = number_in(mesh.extras, "seams", -1);
-        if (seams >= 0 && seams < double(model.accessors.size())) join_seams(level.mesh, int(seams));
+        join_copies(level.mesh, first, mesh.extras);
     }
 
-    /// Where the file is as we wrote it; vertices of what came before are no originals.
-    void join_seams(Mesh& mesh, int accessor) {
-        const Elements elements(model, accessor);
-        if (elements.count() >= mesh.positions.size()) return;
-        std::vector<std::uint32_t> originals;
+    /// Where the file is as we wrote it: `seams` of one primitive, `vertices` of several.
+    void join_copies(Mesh& mesh, std::size_t first, const Value& extras) {
+        Copies copies;
+        if (const auto seams = numbers(extras, "seams", mesh); seams && seams->size() < mesh.positions.size())
+            copies = copies_at_end(mesh, *seams);
+        else if (auto vertices = numbers(extras, "vertices", mesh); vertices && !vertices->empty()) {
+            copies.count = std::size_t(*std::max_element(vertices->begin(), vertices->end())) + 1;
+            copies.first = first, copies.of = std::move(*vertices);
+            if (copies.count > copies.of.size()) return;
+        }
+        if (are_copies(mesh, copies)) this->copies.join(mesh, copies);
+    }
+
+    /// Of the accessor that `extras` names, no more than there are vertices.
+    std::optional<std::vector<std::uint32_t>> numbers(const Value& extras, const char* name, const Mesh& mesh) const {
+        const double accessor = number_in(extras, name, -1);
+        if (!(accessor >= 0 && accessor < double(model.accessors.size()))) return {};
+        const Elements elements(model, int(accessor));
+        if (elements.count() > mesh.positions.size()) return {};
+        std::vector<std::uint32_t> found;
         for (std::size_t k = 0; k < elements.count(); ++k)
-            originals.push_back(std::uint32_t(std::clamp(elements.get(k, 0), 0.0, double(UINT32_MAX))));
-        if (are_copies(mesh, originals)) copies.join(mesh, originals);
+            found.push_back(std::uint32_t(std::clamp(elements.get(k, 0), 0.0, double(UINT32_MAX))));
+        return found;
     }
 
     void add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive, const glm::dmat4& m) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <streambuf>
@@ -15,6 +17,7 @@
 #include "tools/io/mesh_format.h"
 #include "tools/io/meshopt.h"
 #include "tools/mesh/corner_split.h"
+#include "tools/mesh/face_colours.h"
 #include "tools/picture/png.h"
 
 namespace glcast::format {
@@ -82,14 +85,17 @@ class GlbBuilder {
     int add_indices(std::span<const std::uint32_t> indices, std::size_t vertices, int target);
     int add_image(const std::string& png, const std::string& name);
     int plain_material();
+    int coloured_material(const glm::vec3& colour);
     int textured_material(const std::string& name, const Pngs& pngs);
-    tinygltf::Primitive primitive_of(const Level& level, const Mesh& mesh, const CornerSplit& split,
-                                     const Pngs& pngs);
+    tinygltf::Primitive primitive_of(const Mesh& mesh, const CornerSplit& split);
+    void add_whole(const Level& level, const FaceColours& colours, const Pngs& pngs, tinygltf::Mesh& mesh);
+    void add_parts(const Level& level, const FaceColours& colours, tinygltf::Mesh& mesh);
 
     glm::dvec3 origin;
     std::optional<PositionGrid> grid;
     bool reorder;
     int plain = -1;
+    std::map<std::array<float, 3>, int> coloured; ///< materials by their colours
 };
 
 void GlbBuilder::reserve(std::span<const Level> levels, const std::vector<Pngs>& pngs) {
@@ -261,48 +267,91 @@ int GlbBuilder::textured_material(const std::string& name, const Pngs& pngs) {
     return static_cast<int>(model.materials.size()) - 1;
 }
 
-/// A textured one has no COLOR_0: viewers would multiply the texture by it. `mesh`: the level's vertices, in
-/// whatever order the split is.
-tinygltf::Primitive GlbBuilder::primitive_of(const Level& level, const Mesh& mesh, const CornerSplit& split,
-                                             const Pngs& pngs) {
+/// Of a plain colour, which no COLOR_0 stands beside: viewers would multiply the two.
+int GlbBuilder::coloured_material(const glm::vec3& colour) {
+    const auto [found, is_new] = coloured.try_emplace({colour.x, colour.y, colour.z}, int(model.materials.size()));
+    if (!is_new) return found->second;
+    tinygltf::Material material = matt(material_name(colour));
+    material.pbrMetallicRoughness.baseColorFactor = {to_linear(colour.x), to_linear(colour.y), to_linear(colour.z), 1};
+    model.materials.push_back(material);
+    return found->second;
+}
+
+/// Places, normals and triangles. `mesh`: the level's vertices, in whatever order the split is.
+tinygltf::Primitive GlbBuilder::primitive_of(const Mesh& mesh, const CornerSplit& split) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_positions(mesh, split);
     if (!mesh.normals.empty() || !split.normals.empty())
         primitive.attributes["NORMAL"] = add_normals(mesh, split);
-    if (level.texture.empty()) {
-        if (!mesh.colours.empty() || !split.colours.empty())
-            primitive.attributes["COLOR_0"] = add_colours(mesh, split);
-        primitive.material = plain_material();
-    } else {
-        primitive.attributes["TEXCOORD_0"] = add_coordinates(split);
-        primitive.attributes["TANGENT"] = add_tangents(split);
-        primitive.material = textured_material(level.name, pngs);
-    }
     const std::span<const std::uint32_t> indices(split.triangles.data()->data(), split.triangles.size() * 3);
     primitive.indices = add_indices(indices, split.vertices(mesh), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     return primitive;
 }
 
-/// A texture hides the colours.
-Wedges shown_wedges(const Level& level) {
+/// A texture hides the colours, and so does a material of one.
+Wedges shown_wedges(const Level& level, bool with_colours) {
     Wedges wedges = level.wedges;
-    if (!level.texture.empty()) wedges.colours.clear();
+    if (!with_colours) wedges.colours.clear();
     if (wedges.normals.empty() && wedges.colours.empty()) wedges.corners.clear();
     return wedges;
 }
 
-void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
-    CornerSplit split = split_corners(level.mesh, level.texture, shown_wedges(level));
+/// `colours`: none, or one.
+void GlbBuilder::add_whole(const Level& level, const FaceColours& colours, const Pngs& pngs, tinygltf::Mesh& mesh) {
+    const bool textured = !level.texture.empty(), by_vertex = !textured && colours.empty();
+    CornerSplit split = split_corners(level.mesh, level.texture, shown_wedges(level, by_vertex));
     Mesh moved;
     if (reorder) moved = reorder_for_drawing(level.mesh, split);
-    tinygltf::Mesh mesh;
-    mesh.name = level.name;
-    mesh.primitives.push_back(primitive_of(level, reorder ? moved : level.mesh, split, pngs));
-    mesh.extras = level_extras(level);
+    const Mesh& vertices = reorder ? moved : level.mesh;
+    tinygltf::Primitive primitive = primitive_of(vertices, split);
+    if (textured) {
+        primitive.attributes["TEXCOORD_0"] = add_coordinates(split);
+        primitive.attributes["TANGENT"] = add_tangents(split);
+        primitive.material = textured_material(level.name, pngs);
+    } else {
+        if (by_vertex && has_colours(vertices, {{}, {}, split.colours}))
+            primitive.attributes["COLOR_0"] = add_colours(vertices, split);
+        primitive.material = by_vertex ? plain_material() : coloured_material(colours.palette[0]);
+    }
+    mesh.primitives.push_back(primitive);
     if (!split.originals.empty())
         mesh.extras.Get<Value::Object>()["seams"] =
             Value(add_indices(split.originals, level.mesh.positions.size(), no_target));
+}
+
+/// A primitive a colour, each with vertices of its own.
+void GlbBuilder::add_parts(const Level& level, const FaceColours& colours, tinygltf::Mesh& mesh) {
+    Level placed = level;
+    if (grid) {
+        const std::vector<GridPoint> points = on_grid(level.mesh, *grid);
+        for (std::size_t v = 0; v < points.size(); ++v) placed.mesh.positions[v] = position(points[v], *grid);
+    }
+    std::vector<std::uint32_t> vertices; // of the level, for each of the file
+    for (std::uint32_t which = 0; which < colours.palette.size(); ++which) {
+        FacePart part = part_of_colour(placed, colours, which);
+        CornerSplit split = split_corners(part.mesh, {}, part.wedges);
+        std::vector<std::uint32_t> order(part.vertices.size());
+        std::iota(order.begin(), order.end(), 0);
+        if (reorder) part.mesh = reorder_for_drawing(part.mesh, split, &order);
+        tinygltf::Primitive primitive = primitive_of(part.mesh, split);
+        primitive.material = coloured_material(colours.palette[which]);
+        mesh.primitives.push_back(primitive);
+        for (std::size_t v = 0; v < split.vertices(part.mesh); ++v)
+            vertices.push_back(part.vertices[order[split.original(part.mesh, v)]]);
+    }
+    mesh.extras.Get<Value::Object>()["vertices"] = Value(add_indices(vertices, level.mesh.positions.size(), no_target));
+}
+
+void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {
+    tinygltf::Mesh mesh;
+    mesh.name = level.name;
+    mesh.extras = level_extras(level);
+    const FaceColours colours = face_colours(level);
+    if (colours.palette.size() > 1)
+        add_parts(level, colours, mesh);
+    else
+        add_whole(level, colours, pngs, mesh);
     model.meshes.push_back(mesh);
     tinygltf::Node node;
     node.name = level.name;

@@ -21,6 +21,7 @@ std::vector<Level> read_obj(std::string_view bytes, const std::filesystem::path&
 std::vector<Level> read_ply(std::string_view bytes, const std::filesystem::path& path);
 std::vector<Level> read_off(std::string_view bytes, const std::filesystem::path& path);
 std::vector<Level> read_stl(std::string_view bytes, const std::filesystem::path& path);
+std::vector<Level> read_3mf(std::string_view bytes, const std::filesystem::path& path);
 
 /// The files of a run, which appear together.
 class FileSet {
@@ -55,6 +56,9 @@ bool write_off(FileSet& files, const std::filesystem::path& path, const Level& l
 
 bool write_stl(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
 bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options);
+
+/// "colour_cc1a00": of a plain colour, in .glb and .mtl.
+std::string material_name(const glm::vec3& colour);
 
 [[noreturn]] void refuse(const std::string& why);
 

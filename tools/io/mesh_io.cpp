@@ -1,9 +1,11 @@
 #include "tools/io/mesh_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -12,16 +14,25 @@
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "capture/output_file.h"
 #include "tools/io/input_file.h"
 #include "tools/io/level_set.h"
 #include "tools/io/mesh_format.h"
+#include "tools/mesh/face_colours.h"
 
 namespace glcast {
 namespace format {
 
 void refuse(const std::string& why) { throw std::runtime_error(why); }
+
+std::string material_name(const glm::vec3& colour) {
+    const auto byte = [](float c) { return unsigned(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)); };
+    char name[32];
+    std::snprintf(name, sizeof name, "colour_%02x%02x%02x", byte(colour.x), byte(colour.y), byte(colour.z));
+    return name;
+}
 
 std::vector<Level> one_level(Mesh mesh) {
     std::vector<Level> levels(1);
@@ -97,7 +108,7 @@ constexpr Format formats[] = {
     {".ply", format::read_ply, format::write_ply, false},
     {".off", format::read_off, format::write_off, false},
     {".stl", format::read_stl, format::write_stl, false},
-    {".3mf", nullptr, format::write_3mf, false},
+    {".3mf", format::read_3mf, format::write_3mf, false},
 };
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -105,7 +116,7 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf (to write) or .gltf (to read)");
+    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf or .gltf (to read)");
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -202,7 +213,6 @@ void write_glbs(format::FileSet& files, const std::filesystem::path& path, std::
 std::vector<Level> read_levels(const std::filesystem::path& path) {
     try {
         const Format& f = format_of(path);
-        if (!f.read) format::refuse(std::string(f.extension) + " is written only");
         const std::string bytes = read_file(path);
         std::vector<Level> levels = f.read(bytes, path);
         for (Level& level : levels) tidy(level);
@@ -227,6 +237,14 @@ Mesh read_mesh(const std::filesystem::path& path) { return std::move(read_levels
 
 std::string note_on(const std::filesystem::path& path, const Level& level) {
     const Format& f = format_of(path);
+    if (f.write == format::write_obj || f.write == format::write_off) {
+        const bool textured = !level.texture.empty() && f.write == format::write_obj;
+        if (textured || level.wedges.colours.empty() || (f.write == format::write_obj && !face_colours(level).empty()))
+            return {};
+        return path.string() + ": a vertex has one colour in " + f.extension +
+               ": where several meet, that of its largest side; " +
+               (f.write == format::write_obj ? "--texture keeps them" : ".glb and .ply keep them");
+    }
     const glm::dvec3 from = format::origin_of_floats(level.mesh);
     if ((f.write != format::write_stl && f.write != format::write_3mf) || from == glm::dvec3(0)) return {};
     return path.string() + ": the model is moved by " + format::moved_by(from) +
@@ -234,6 +252,17 @@ std::string note_on(const std::filesystem::path& path, const Level& level) {
 }
 
 std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }
+
+void hold_in_floats(Mesh& mesh) {
+    if (format::needs_doubles(mesh)) return;
+    std::vector<std::array<float, 3>> rounded;
+    for (const glm::dvec3& p : mesh.positions) rounded.push_back({float(p.x), float(p.y), float(p.z)});
+    std::vector<std::array<float, 3>> sorted = rounded;
+    tbb::parallel_sort(sorted);
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return;
+    for (std::size_t v = 0; v < rounded.size(); ++v)
+        mesh.positions[v] = glm::dvec3(rounded[v][0], rounded[v][1], rounded[v][2]);
+}
 
 void round_levels(std::span<Level> levels, Compression compression) {
     if (compression == Compression::none || levels.empty()) return;

@@ -1,4 +1,4 @@
-// Reading and writing meshes: .glb (tinygltf), .obj, .ply, .off, .stl; .3mf (lib3mf) is written only.
+// Reading and writing meshes: .glb (tinygltf), .obj, .ply, .off, .stl, .3mf (lib3mf).
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace glcast {
 
-/// All levels of a file, finest first (one for .obj, .ply, .off, .stl). Colours come back as drawn: .glb holds linear
+/// All levels of a file, finest first (one for all but .glb). Colours come back as drawn: .glb holds linear
 /// light, converted on the way. Of a .glb textures come back too, where a level has one material, its pictures are PNG
 /// or JPEG; vertices that we copied along seams are one again. Throws std::runtime_error, one line, on anything
 /// unreadable.
@@ -25,6 +25,11 @@ enum class Compression {
     quantize, ///< KHR_mesh_quantization: positions of 16 bits, normals and tangents of 8
     meshopt,  ///< the same, reordered, and EXT_meshopt_compression
 };
+
+/// Positions become floats, as .glb, .stl and, where all are floats, .ply hold them: so that what is checked and measured
+/// afterwards is true of the files. A mesh so far from the origin that floats would lose its shape, or of which two vertices
+/// would come to one place, stays as it is.
+void hold_in_floats(Mesh& mesh);
 
 struct WriteOptions {
     Compression compression = Compression::none;
@@ -43,7 +48,8 @@ void round_levels(std::span<Level> levels, Compression compression);
 std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
                                                 const WriteOptions& options = {});
 
-/// A line on what a format cannot hold of the level as it is, or nothing: .stl and .3mf of a mesh far from the origin.
+/// A line on what a format cannot hold of the level as it is, or nothing: .stl and .3mf of a mesh far from the origin, .obj and
+/// .off of a vertex with several colours.
 std::string note_on(const std::filesystem::path& path, const Level& level);
 
 /// Bytes of the level as a .glb of its own. Throws as write_levels does.

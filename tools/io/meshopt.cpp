@@ -169,7 +169,7 @@ std::string decoded(std::string_view codes, const Json& how) {
 
 } // namespace
 
-Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split) {
+Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split, std::vector<std::uint32_t>* order_of_mesh) {
     const std::size_t own = mesh.positions.size(), all = split.vertices(mesh);
     auto* corners = split.triangles.data()->data();
     meshopt_optimizeVertexCache(corners, corners, split.triangles.size() * 3, all);
@@ -201,6 +201,7 @@ Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split) {
         if (!mesh.normals.empty()) moved.normals.push_back(mesh.normals[order[v]]);
         if (!mesh.colours.empty()) moved.colours.push_back(mesh.colours[order[v]]);
     }
+    if (order_of_mesh) order_of_mesh->assign(order.begin(), order.begin() + std::ptrdiff_t(own));
     return moved;
 }
 

@@ -13,8 +13,8 @@ inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 
 /// Triangles in an order that uses each vertex soon again, vertices in the order of their use: faster to
 /// draw, and smaller when compressed. The vertices of the mesh stay before the copies. Returns the mesh's
-/// vertices (and no triangles) in their new order.
-Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split);
+/// vertices (and no triangles) in their new order; `order`: which vertex of the mesh each of them was.
+Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split, std::vector<std::uint32_t>* order = nullptr);
 
 /// The same .glb with its vertices and indices compressed, and no uncompressed copy beside them: the
 /// extension is required.

@@ -1,12 +1,11 @@
 // 3D Manufacturing Format (.3mf), written by lib3mf: one object with its unit, and a colour group for the colours of its corners.
-#include <Model/COM/NMR_DLLInterfaces.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
 #include "tools/io/mesh_format.h"
+#include "tools/io/threemf_handle.h"
 
 namespace glcast::format {
 namespace {
@@ -17,17 +16,9 @@ constexpr DWORD units_of_lib3mf[] = {MODELUNIT_MICROMETER, MODELUNIT_MILLIMETER,
                                      MODELUNIT_INCH,       MODELUNIT_FOOT,       MODELUNIT_METER};
 static_assert(std::size(units_of_lib3mf) == length_units.size());
 
-void require(LIB3MFRESULT result) {
-    if (result != 0) throw std::runtime_error("lib3mf cannot make the .3mf");
-}
+using Handle = ThreeMfHandle;
 
-/// Of lib3mf, given back at the end.
-struct Handle {
-    PLib3MFBase* of = nullptr;
-    ~Handle() {
-        if (of) lib3mf_release(of);
-    }
-};
+void require(LIB3MFRESULT result) { format::require(result, "lib3mf cannot make the .3mf"); }
 
 /// lib3mf writes six decimals: where these are too coarse, a smaller unit, the same length.
 std::size_t unit_for(const Mesh& mesh, std::size_t asked) {

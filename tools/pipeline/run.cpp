@@ -201,8 +201,17 @@ void Run::make_levels() {
     if (drafts.size() == std::size_t(options.full) && !options.progressive.empty())
         (void)levels_of_one_run(full.mesh, {}, log);
     drop_doubles();
+    if (!options.progressive.empty()) // as glcast refine has it, without the capture
+        for (Draft& draft : drafts)
+            if (!is_full(draft.level)) fit_wedges(draft.level, full.mesh);
     for (std::size_t k = 0; k < drafts.size(); ++k) drafts[k].level.name = level_name(named, k);
     made.seconds.simplify = watch.seconds();
+}
+
+/// Or materials. What a progressive mesh holds stays as it is.
+bool Run::has_textures() const {
+    return options.surface.method != SurfaceMethod::cubes &&
+           (options.texture.kind != TextureChoice::Kind::none || options.progressive.empty());
 }
 
 void Run::texture(Draft& draft) {
@@ -212,8 +221,7 @@ void Run::texture(Draft& draft) {
 }
 
 void Run::make_textures() {
-    if (options.texture.kind == TextureChoice::Kind::none || options.surface.method == SurfaceMethod::cubes)
-        return;
+    if (!has_textures()) return;
     stage("baking textures");
     const Stopwatch watch;
     for (Draft& draft : drafts) texture(draft);
@@ -223,6 +231,9 @@ void Run::make_textures() {
 /// Against the full surface; where the files will hold rounded levels, these.
 void Run::measure_drafts(const std::vector<std::size_t>& which) {
     const bool rounds = options.compression != Compression::none;
+    if (!rounds && options.progressive.empty())
+        for (const std::size_t k : which)
+            if (!is_full(drafts[k].level)) hold_in_floats(drafts[k].level.mesh);
     if (rounds) {
         rounded.clear();
         for (const Draft& draft : drafts) rounded.push_back(draft.level);
@@ -259,7 +270,7 @@ void Run::measure() {
             SizedLevel finer = search->finer({{}, draft.count});
             finer.level.name = draft.level.name, finer.level.pixels = draft.level.pixels;
             draft.level = std::move(finer.level), draft.count = finer.count;
-            if (draft.texture || options.texture.kind == TextureChoice::Kind::by_need) texture(draft);
+            if (has_textures()) texture(draft);
         }
         if (options.compression != Compression::none) {
             which.resize(drafts.size());

@@ -44,6 +44,7 @@ class Run {
     void add_sized(const std::vector<double>& pixels);
     void bind_to_progressive_mesh();
     void drop_doubles();
+    bool has_textures() const;
     void texture(Draft& draft);
     void measure_drafts(const std::vector<std::size_t>& which);
     std::vector<std::size_t> too_far() const;

@@ -8,6 +8,7 @@
 #include "tools/deviation/area_samples.h"
 #include "tools/deviation/shown.h"
 #include "tools/texture/atlas.h"
+#include "tools/texture/colour_patches.h"
 #include "tools/texture/reach.h"
 #include "tools/texture/views.h"
 
@@ -20,6 +21,7 @@ constexpr std::size_t points = 20'000;
 constexpr float light_of_normal = 0.37f;
 /// More is visible: with an outline that is right this leaves 43 dB of a picture that the object fills.
 constexpr double visible = 0.007;
+constexpr double hardly_worse = 1.1; // times what the colours of corners are off
 
 double squared_difference(const Shown& shown, const CapturedPoint& captured, float brightest) {
     const glm::vec3 colour = shown.colour - captured.colour;
@@ -40,6 +42,28 @@ TextureReport bake(Level& level, const CapturedSurface& captured, TextureOptions
             level = before;
             if (options.size >= largest_texture) throw;
         }
+}
+
+/// A plain colour a triangle, where that shows it as well. Materials are what every reader shows; colours of vertices
+/// are left out by Blender 3.4 and Godot 3.2.
+bool take_materials(Level& level, const CapturedSurface& captured, TextureChoice::Kind kind) {
+    Level plain = level;
+    if (!take_patch_colours(plain)) return false;
+    const double wrong = shown_error(plain, captured);
+    if (wrong > visible && (kind == TextureChoice::Kind::by_need || wrong > hardly_worse * shown_error(level, captured)))
+        return false;
+    level = std::move(plain);
+    return true;
+}
+
+/// A texture would hold no more than they do, as in the full surface.
+bool has_vertex_a_sample(const Level& level) {
+    double area = 0;
+    for (const Triangle& t : level.mesh.triangles) {
+        const glm::dvec3& a = level.mesh.positions[t[0]];
+        area += glm::length(glm::cross(level.mesh.positions[t[1]] - a, level.mesh.positions[t[2]] - a)) / 2;
+    }
+    return level.sample > 0 && 2 * double(level.mesh.positions.size()) >= area / (level.sample * level.sample);
 }
 
 } // namespace
@@ -66,8 +90,9 @@ double shown_error(const Level& level, const CapturedSurface& captured) {
 std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& captured,
                                            const TextureChoice& choice, std::string& why_not) {
     using Kind = TextureChoice::Kind;
+    if (choice.kind != Kind::sized && take_materials(level, captured, choice.kind)) return {};
     if (choice.kind == Kind::none) return {};
-    if (choice.kind == Kind::by_need && shown_error(level, captured) <= visible) return {};
+    if (choice.kind == Kind::by_need && has_vertex_a_sample(level) && shown_error(level, captured) <= visible) return {};
     TextureOptions options;
     if (choice.kind == Kind::by_need) {
         options.size = largest_texture / 2;

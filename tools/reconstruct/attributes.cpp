@@ -31,8 +31,10 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
     return std::isfinite(length) && length > 1e-6f ? v / length : glm::vec3(0);
 }
 
-glm::vec3 drawn_normal(const AxisHits& hits, std::uint32_t hit) {
-    return hits.normal[hit] ? unpack_normal(hits.normal[hit]) : glm::vec3(0);
+/// To a viewer on `side` (1: plus).
+glm::vec3 drawn_normal(const AxisHits& hits, int side, std::uint32_t hit) {
+    const std::uint32_t packed = hits.normal_to(side, hit);
+    return packed ? unpack_normal(packed) : glm::vec3(0);
 }
 
 /// One view's opinion on a point: its up to four pixels that agree with the point's place.
@@ -54,7 +56,7 @@ template <int axis> class Opinion {
             const Pixel& p = pixels[k];
             if (glm::dot(p.plane, best->plane) < same_facet) continue;
             if (best->normal != glm::vec3(0) && glm::dot(p.normal, best->normal) < same_facet) continue;
-            out.colour += unpack_colour(hits.colour[p.hit]) * p.weight;
+            out.colour += unpack_colour(hits.colour_to(side, p.hit)) * p.weight;
             out.normal += p.normal * p.weight;
             out.plane += p.plane * p.weight;
             weights += p.weight;
@@ -99,7 +101,7 @@ template <int axis> class Opinion {
         pixel.score = pixel.weight / (0.05f + least);
         pixel.hit = best;
         pixel.plane = plane_there;
-        pixel.normal = drawn_normal(hits, best);
+        pixel.normal = drawn_normal(hits, side, best);
     }
 
     static constexpr ImageAxes axes = image_axes(Axis(axis));
@@ -169,7 +171,8 @@ Attribute behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3
         hit_behind_closing(rays, at, surface_normal, main_axis(surface_normal), reach_of_closing);
     if (!there) return {};
     const AxisHits& hits = rays.axis[there.axis];
-    return {unpack_colour(hits.colour[there.hit]), drawn_normal(hits, there.hit), surface_normal, true};
+    const int side = surface_normal[there.axis] > 0;
+    return {unpack_colour(hits.colour_to(side, there.hit)), drawn_normal(hits, side, there.hit), surface_normal, true};
 }
 
 std::array<std::uint32_t, 4> square_corners(const Triangle& s, const Triangle& t) {
@@ -265,8 +268,8 @@ Sampled sample_squares(const Rays& rays, Mesh& mesh, bool geometric_normals) {
         if (hit == no_hit) continue;
         const Triangle &s = mesh.triangles[2 * q], &t = mesh.triangles[2 * q + 1];
         for (std::uint32_t v : square_corners(s, t)) {
-            mesh.colours[v] += unpack_colour(hits.colour[hit]);
-            drawn[v] += drawn_normal(hits, hit);
+            mesh.colours[v] += unpack_colour(hits.colour_to(square.side, hit));
+            drawn[v] += drawn_normal(hits, square.side, hit);
             ++squares[v];
         }
     }

@@ -158,11 +158,12 @@ CapturedPoint CapturedSurface::seen_at(int axis, const glm::dvec3& at, const glm
     out.position = box.lo + (at + 0.5) * sample();
     const Attribute seen = sample_point(*rays, at, plane);
     const AxisHits& hits = rays->axis[axis];
-    out.colour = seen.found ? seen.colour : unpack_colour(hits.colour[hit]);
+    const int side = plane[axis] > 0;
+    out.colour = seen.found ? seen.colour : unpack_colour(hits.colour_to(side, hit));
     out.normal = seen.found ? seen.plane : plane;
     if (geometric_normals) return out;
-    if (seen.found ? seen.normal != glm::vec3(0) : hits.normal[hit] != 0)
-        out.normal = seen.found ? seen.normal : unpack_normal(hits.normal[hit]);
+    if (seen.found ? seen.normal != glm::vec3(0) : hits.normal_to(side, hit) != 0)
+        out.normal = seen.found ? seen.normal : unpack_normal(hits.normal_to(side, hit));
     return out;
 }
 
@@ -207,9 +208,10 @@ CapturedPoint CapturedSurface::shown_behind(const glm::dvec3& start, const glm::
     glm::dvec3 at = start;
     at[there.axis] = hits.depth[there.hit];
     out.position = box.lo + (at + 0.5) * sample();
-    out.colour = unpack_colour(hits.colour[there.hit]);
-    const bool drawn = !geometric_normals && hits.normal[there.hit];
-    out.normal = drawn ? unpack_normal(hits.normal[there.hit]) : facing;
+    const int side = facing[there.axis] > 0;
+    out.colour = unpack_colour(hits.colour_to(side, there.hit));
+    const std::uint32_t normal = geometric_normals ? 0 : hits.normal_to(side, there.hit);
+    out.normal = normal ? unpack_normal(normal) : facing;
     return out;
 }
 

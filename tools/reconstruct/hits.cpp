@@ -30,6 +30,9 @@ void sort_by_depth(AxisHits& hits, std::uint32_t from, std::uint32_t to) {
             std::swap(hits.depth[k], hits.depth[k - 1]);
             std::swap(hits.normal[k], hits.normal[k - 1]);
             std::swap(hits.colour[k], hits.colour[k - 1]);
+            if (hits.plus_colour.empty()) continue;
+            std::swap(hits.plus_normal[k], hits.plus_normal[k - 1]);
+            std::swap(hits.plus_colour[k], hits.plus_colour[k - 1]);
         }
 }
 
@@ -64,7 +67,9 @@ void HitBuilder::add(const ViewImage& image) {
     for (const Layer& other : added)
         if (other.view == image.view)
             throw std::runtime_error("view " + name_of(image.view) + " is there twice");
-    Layer layer{image.view, {}, {}, {}, {}};
+    Layer layer{image.view, {}, {}, {}, {}, {}, {}};
+    const bool has_other = image.other_colour.size() == pixels && image.other_normal.size() == pixels;
+    both_sides |= has_other;
     for (std::size_t p = 0; p < pixels; ++p) {
         const float z = image.depth[p];
         if (!image.covered(p) || !(z >= 0 && z <= 1)) continue;
@@ -72,6 +77,9 @@ void HitBuilder::add(const ViewImage& image) {
         layer.depth.push_back(z * float(n) - 0.5f);
         layer.normal.push_back(pack_drawn_normal(image.normal[p]));
         layer.colour.push_back(pack_colour(glm::vec3(image.colour[p])));
+        if (!has_other) continue;
+        layer.other_normal.push_back(pack_drawn_normal(image.other_normal[p]));
+        layer.other_colour.push_back(pack_colour(glm::vec3(image.other_colour[p])));
     }
     layers |= image.view.layer > 0;
     added.push_back(std::move(layer));
@@ -94,6 +102,7 @@ AxisHits HitBuilder::merge(int axis) {
     hits.depth.resize(count);
     hits.normal.resize(count);
     hits.colour.resize(count);
+    if (both_sides) hits.plus_normal.resize(count), hits.plus_colour.resize(count);
     std::vector<std::uint32_t> next(hits.start.begin(), hits.start.end() - 1);
     for (Layer& part : parts) {
         for (std::size_t i = 0; i < part.pixel.size(); ++i) {
@@ -101,6 +110,13 @@ AxisHits HitBuilder::merge(int axis) {
             hits.depth[to] = part.depth[i];
             hits.normal[to] = part.normal[i];
             hits.colour[to] = part.colour[i];
+            if (!both_sides) continue;
+            const bool from_plus = part.view.side == Side::plus, has_other = !part.other_colour.empty();
+            hits.plus_normal[to] = from_plus || !has_other ? part.normal[i] : part.other_normal[i];
+            hits.plus_colour[to] = from_plus || !has_other ? part.colour[i] : part.other_colour[i];
+            if (!from_plus || !has_other) continue;
+            hits.normal[to] = part.other_normal[i];
+            hits.colour[to] = part.other_colour[i];
         }
         part = {};
     }

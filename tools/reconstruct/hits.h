@@ -23,6 +23,18 @@ struct AxisHits {
     std::vector<std::uint32_t> normal; ///< as drawn, packed; 0 none
     std::vector<std::uint32_t> colour; ///< as drawn, pack_colour; the top two bits: sides.h
 
+    /// In captures of both sides `normal` and `colour` are what a viewer on the minus side sees, and these are a
+    /// viewer's on the plus side. Else empty: both see the same.
+    std::vector<std::uint32_t> plus_normal, plus_colour;
+
+    /// To a viewer on `side` (1: plus).
+    std::uint32_t colour_to(int side, std::uint32_t hit) const {
+        return side == 1 && !plus_colour.empty() ? plus_colour[hit] : colour[hit];
+    }
+    std::uint32_t normal_to(int side, std::uint32_t hit) const {
+        return side == 1 && !plus_normal.empty() ? plus_normal[hit] : normal[hit];
+    }
+
     bool hit(std::size_t pixel) const { return start[pixel] != start[pixel + 1]; }
     /// First and last depth; no_depth and -no_depth where nothing was hit.
     float front(std::size_t pixel) const { return hit(pixel) ? depth[start[pixel]] : no_depth; }
@@ -73,12 +85,12 @@ class HitBuilder {
   private:
     struct Layer {
         View view;
-        std::vector<std::uint32_t> pixel, normal, colour;
+        std::vector<std::uint32_t> pixel, normal, colour, other_normal, other_colour;
         std::vector<float> depth;
     };
     AxisHits merge(int axis);
     int n = 0;
-    bool layers = false;
+    bool layers = false, both_sides = false;
     std::vector<Layer> added;
 };
 

@@ -42,30 +42,43 @@ std::optional<std::string> script_interpreter(std::ifstream& file) {
     return interpreter;
 }
 
-std::string check_elf(std::ifstream& file, const std::string& name) {
-    Elf64_Ehdr header{};
+template <class Header, class Segment> bool has_loader(std::ifstream& file) {
+    Header header{};
     file.clear();
     file.seekg(0);
-    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) ||
-        std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) {
-        return name + " is neither a program nor a script that names its interpreter";
-    }
-    constexpr int our_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
-    Elf64_Ehdr ours{};
-    std::ifstream("/proc/self/exe", std::ios::binary).read(reinterpret_cast<char*>(&ours), sizeof ours);
-    if (header.e_ident[EI_CLASS] != our_class || header.e_machine != ours.e_machine) {
-        return name + " is for another kind of processor than this glcast (32-bit?), so the library cannot "
-                      "be preloaded";
-    }
-    for (int i = 0; i < header.e_phnum; ++i) {
-        Elf64_Phdr segment{};
+    file.read(reinterpret_cast<char*>(&header), sizeof header);
+    for (int i = 0; file && i < header.e_phnum; ++i) {
+        Segment segment{};
         file.seekg(static_cast<std::streamoff>(header.e_phoff + std::uint64_t(i) * header.e_phentsize));
-        if (file.read(reinterpret_cast<char*>(&segment), sizeof segment) && segment.p_type == PT_INTERP) {
-            return {};
-        }
+        if (file.read(reinterpret_cast<char*>(&segment), sizeof segment) && segment.p_type == PT_INTERP) return true;
     }
-    return name +
-           " is linked statically: it has no loader that could preload a library, so it cannot be cast";
+    return false;
+}
+
+/// Of our machine's kind: a program, or a script's interpreter.
+Elf32_Ehdr read_ident(std::istream& file) {
+    Elf32_Ehdr header{}; // e_machine lies at one place in both widths
+    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
+    return header;
+}
+
+std::string check_elf(std::ifstream& file, const std::string& name, const Library& library) {
+    file.clear();
+    file.seekg(0);
+    const Elf32_Ehdr header = read_ident(file);
+    if (header.e_ident[EI_MAG0] == 0) return name + " is neither a program nor a script that names its interpreter";
+    std::ifstream self("/proc/self/exe", std::ios::binary);
+    const Elf32_Ehdr ours = read_ident(self);
+    const bool same = header.e_ident[EI_CLASS] == ours.e_ident[EI_CLASS] && header.e_machine == ours.e_machine;
+    const bool smaller = header.e_machine == EM_386 && ours.e_machine == EM_X86_64;
+    if (!same && !smaller)
+        return name + " is for another kind of processor than this glcast, so the library cannot be preloaded";
+    if (smaller && library.other.empty())
+        return name + " is a 32-bit program, and the library for those is not there (lib/i386-linux-gnu/glcast/libglcast.so): "
+                      "install the package libglcast0:i386, or g++-multilib and lib32z1-dev before glcast is built";
+    if (header.e_ident[EI_CLASS] == ELFCLASS32 ? has_loader<Elf32_Ehdr, Elf32_Phdr>(file) : has_loader<Elf64_Ehdr, Elf64_Phdr>(file))
+        return {};
+    return name + " is linked statically: it has no loader that could preload a library, so it cannot be cast";
 }
 
 } // namespace
@@ -86,7 +99,7 @@ std::string check_output(const fs::path& file) {
     return why_not_writable(file);
 }
 
-std::string check_program(const fs::path& program) {
+std::string check_program(const fs::path& program, const Library& library) {
     struct stat status {};
     if (stat(program.c_str(), &status) != 0) {
         return "cannot run " + program.string() + ": " + reason(errno);
@@ -104,9 +117,9 @@ std::string check_program(const fs::path& program) {
     }
     const auto interpreter = script_interpreter(file);
     if (interpreter && *interpreter != program) {
-        return check_program(*interpreter);
+        return check_program(*interpreter, library);
     }
-    return check_elf(file, program.string());
+    return check_elf(file, program.string(), library);
 }
 
 fs::path find_program(const std::string& name) {
@@ -119,22 +132,6 @@ fs::path find_program(const std::string& name) {
         const fs::path candidate = fs::path(folder.empty() ? "." : folder) / name;
         std::error_code ignored;
         if (fs::is_regular_file(candidate, ignored) && access(candidate.c_str(), X_OK) == 0) {
-            return candidate;
-        }
-    }
-    return {};
-}
-
-fs::path find_shim() {
-    std::error_code ignored;
-    if (const char* given = std::getenv("GLCAST_LIBRARY"); given != nullptr && *given != '\0') {
-        return fs::is_regular_file(given, ignored) ? fs::absolute(given) : fs::path();
-    }
-    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-    for (const char* folder :
-         {"", GLCAST_SHIM_FROM_BUILD, GLCAST_SHIM_FROM_INSTALL, "../lib/glcast"}) {
-        const fs::path candidate = (here / folder / "libglcast.so").lexically_normal();
-        if (fs::is_regular_file(candidate, ignored)) {
             return candidate;
         }
     }

@@ -35,15 +35,15 @@ struct Trouble {
     int status = 1;
 };
 
-Trouble check_program_and_shim(const Options& options, const fs::path& program, const fs::path& shim) {
-    if (shim.empty()) {
+Trouble check_program_and_shim(const Options& options, const fs::path& program, const Library& library) {
+    if (library.file.empty()) {
         return {"cannot find libglcast.so beside glcast-run nor in the library folder; GLCAST_LIBRARY can "
                 "name it"};
     }
     if (program.empty()) {
         return {"cannot run " + options.program[0] + ": no such program in PATH"};
     }
-    return {check_program(program)};
+    return {check_program(program, library)};
 }
 
 /// Of a mesh `glcast mesh` is asked, with all its options.
@@ -59,21 +59,16 @@ Trouble check_outputs(const Options& options, const std::string& capture, const 
     return {meshes == nullptr || options.keep_capture ? check_output(capture) : ""};
 }
 
-/// Other preloads are kept, behind ours. The loader splits at spaces and colons, so a path with one goes
-/// through a link.
-std::string compose_preload(fs::path shim, const fs::path& scratch) {
-    if (shim.string().find_first_of(" :") != std::string::npos) {
-        fs::create_symlink(shim, scratch / "libglcast.so");
-        shim = scratch / "libglcast.so";
-    }
+/// Other preloads are kept, behind ours.
+std::string compose_preload(const Library& library, const fs::path& scratch) {
     const char* others = std::getenv("LD_PRELOAD");
-    return shim.string() + (others != nullptr && *others != '\0' ? ":" + std::string(others) : "");
+    return library.preload(scratch) + (others != nullptr && *others != '\0' ? ":" + std::string(others) : "");
 }
 
-Environment environment(const Options& options, const std::string& capture, const StatusPipe& pipe, const fs::path& shim,
+Environment environment(const Options& options, const std::string& capture, const StatusPipe& pipe, const Library& library,
                         const Display& display) {
     Environment changes = shim_variables(options, capture, pipe.path());
-    changes.emplace_back("LD_PRELOAD", compose_preload(shim, pipe.scratch()));
+    changes.emplace_back("LD_PRELOAD", compose_preload(library, pipe.scratch()));
     if (options.headless) {
         changes.insert(
             changes.end(),
@@ -156,9 +151,9 @@ void occupy_standard_descriptors() {
 }
 
 /// Why a program that was started by another, by a shell script say, may not have the library in it.
-std::string find_obstacle(const Program& program) {
+std::string find_obstacle(const Program& program, const Library& library) {
     for (const fs::path& file : program.running()) {
-        if (const std::string trouble = check_program(file); !trouble.empty()) {
+        if (const std::string trouble = check_program(file, library); !trouble.empty()) {
             return "; " + trouble;
         }
     }
@@ -173,10 +168,11 @@ int report(const Options& options, const Seen& seen, const MeshStep* meshes, con
 
 int run(const Options& options) {
     occupy_standard_descriptors();
-    const fs::path program_file = find_program(options.program[0]), shim = find_shim(), glcast = find_glcast();
+    const fs::path program_file = find_program(options.program[0]), glcast = find_glcast();
+    const Library library = find_library();
     const bool makes_mesh = options.makes_mesh && !options.list;
     if (makes_mesh && glcast.empty()) return fail("cannot find glcast beside glcast-run, which makes the mesh");
-    if (const Trouble trouble = check_program_and_shim(options, program_file, shim); !trouble.why.empty()) {
+    if (const Trouble trouble = check_program_and_shim(options, program_file, library); !trouble.why.empty()) {
         return fail(trouble.why);
     }
     const int signals = take_signals();
@@ -199,13 +195,14 @@ int run(const Options& options) {
     }
     Program program(options.quit || options.headless);
     program.spare(display.pid());
-    const Environment changes = environment(options, capture, pipe, shim, display);
+    const Environment changes = environment(options, capture, pipe, library, display);
     const int program_output = options.json ? STDERR_FILENO : -1;
     if (const std::string trouble = program.start(program_file, options.program, changes, program_output);
         !trouble.empty()) {
         return fail(trouble);
     }
     Seen seen;
+    seen.started = std::to_string(program.id());
     std::optional<int> result;
     std::string ending = wait_for_cast(options, program, pipe, signals, seen, [&] {
         if (meshes && !seen.looking) {
@@ -214,8 +211,8 @@ int run(const Options& options) {
         }
         if (!meshes && !result && seen.finished(options.captures)) result = report(options, seen, nullptr, "");
     });
-    if (seen.api.empty()) {
-        ending += find_obstacle(program);
+    if (principal(seen).api.empty()) {
+        ending += find_obstacle(program, library);
         if (!options.headless) ending += missing_display();
     }
     if (meshes && ending == interrupted) meshes->give_up();

@@ -225,6 +225,10 @@ void declare(CLI::App& app, Options& o) {
                    "What is blended: keep or skip all of it (default: keep it where half or less of what is behind shows)")
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
+    app.add_option("--backdrop", o.backdrop,
+                   "keep: cast skies and pictures behind the scene too (default: left out, with a line that says so)")
+        ->envname("GLCAST_BACKDROP")
+        ->check(CLI::IsMember({"keep"}));
     app.add_option("--fov", o.view_angle,
                    "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
         ->envname("GLCAST_FOV")
@@ -358,6 +362,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
+        {"GLCAST_BACKDROP", o.backdrop},
         {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
         {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},

@@ -30,7 +30,7 @@ struct Options {
     bool quit = false; ///< end the program after the capture; `list` implies it
     bool list = false;
     std::string list_picture; ///< absolute; implies `list`
-    std::string include, transparent;
+    std::string include, transparent, backdrop;
     double view_angle = 0; ///< degrees; 0: not told
     double timeout_seconds = 0;       ///< 0: no limit
     double most_seconds = 0;          ///< of one cast; 0: no limit

@@ -57,6 +57,7 @@ class Program {
     void spare(pid_t pid) { spared[pid]; } ///< a child of ours that is not the program's
     /// The wait status of a spared child that reap() has met, once.
     std::optional<int> take_ended(pid_t pid);
+    pid_t id() const { return leader; }     ///< of the first process
     bool alive() const;                     ///< any process of its group, also when the first one has gone
     void signal(int number) const;          ///< to the whole group
     /// Files that processes of its group run now, each once; of those that we may not look into, as they were called.

@@ -8,24 +8,60 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
-#include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace glcast::run {
 
+Drawing principal(const Seen& seen) {
+    const auto key = [&](const auto& entry) {
+        return std::tuple(!entry.second.api.empty(), entry.second.frames, entry.first == seen.started, entry.second.order);
+    };
+    const auto most = std::max_element(seen.drawings.begin(), seen.drawings.end(),
+                                       [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    return most == seen.drawings.end() ? Drawing{} : most->second;
+}
+
+namespace {
+
+long number(const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); }
+
+/// What follows the first word.
+std::string rest_of(const std::string& text) { return text.substr(std::min(text.find(' ') + 1, text.size())); }
+
+/// What a line tells of the drawing of its process, if it does.
+void take_drawing(const std::string& kind, const std::string& rest, const std::string& process, Seen& seen) {
+    using Take = std::function<void(const std::string&, Drawing&)>;
+    static const std::map<std::string, Take> kinds = {
+        {"hooked",
+         [](const std::string& text, Drawing& d) {
+             d.api = text.substr(0, text.find(' '));
+             d.name = text == d.api ? "" : rest_of(text);
+         }},
+        {"frames", [](const std::string& text, Drawing& d) { d.frames = std::max(d.frames, number(text)); }},
+        {"waits", [](const std::string& text, Drawing& d) { d.waits = text; }},
+        {"seen", [](const std::string& text, Drawing& d) { d.seen = text; }},
+        {"offscreen", [](const std::string& text, Drawing& d) { d.offscreen = text; }},
+        {"refused", [](const std::string& text, Drawing& d) { d.refused = text; }},
+    };
+    const auto found = kinds.find(kind);
+    if (found == kinds.end()) {
+        return;
+    }
+    Drawing& drawing = seen.drawings[process];
+    if (drawing.order == 0) drawing.order = static_cast<int>(seen.drawings.size());
+    found->second(rest, drawing);
+}
+
+} // namespace
+
 void take_line(const std::string& line, Seen& seen) {
     using Take = std::function<void(const std::string&, Seen&)>;
-    const auto number = [](const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); };
-    const auto capture = [=](const std::string& text, Seen& s) {
-        return Capture{number(text), text.substr(std::min(text.find(' ') + 1, text.size())), std::exchange(s.figures, {})};
+    const auto capture = [](const std::string& text, Seen& s) {
+        return Capture{number(text), rest_of(text), std::exchange(s.figures, {})};
     };
     static const std::map<std::string, Take> kinds = {
-        {"hooked", [](const std::string& rest, Seen& s) { s.api = rest; }},
-        {"frames", [=](const std::string& rest, Seen& s) { s.frames = std::max(s.frames, number(rest)); }},
-        {"waits", [](const std::string& rest, Seen& s) { s.waits = rest; }},
-        {"seen", [](const std::string& rest, Seen& s) { s.seen = rest; }},
-        {"refused", [](const std::string& rest, Seen& s) { s.refused = rest; }},
-        {"casting", [=](const std::string& rest, Seen& s) { s.casting = number(rest); }},
+        {"casting", [](const std::string& rest, Seen& s) { s.casting = number(rest); }},
         {"figures", [](const std::string& rest, Seen& s) { s.figures = rest; }},
         {"captured", [=](const std::string& rest, Seen& s) { s.captures.push_back(capture(rest, s)); }},
         {"recaptured",
@@ -40,20 +76,23 @@ void take_line(const std::string& line, Seen& seen) {
         {"slow", [](const std::string& rest, Seen& s) { s.slow = rest; }},
         {"progress", [](const std::string& rest, Seen& s) { s.progress = rest; }},
         {"unsaid",
-         [=](const std::string& rest, Seen& s) {
+         [](const std::string& rest, Seen& s) {
              s.unsaid = std::max(s.unsaid, number(rest));
-             s.unsaid_why = rest.substr(std::min(rest.find(' ') + 1, rest.size()));
+             s.unsaid_why = rest_of(rest);
          }},
         {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},
         {"listed", [](const std::string&, Seen& s) { s.listed = true; }},
     };
-    const auto space = std::min(line.find(' '), line.size());
-    const std::string_view word(line.data(), space);
+    const std::string head = line.substr(0, line.find(' ')), rest = line.substr(std::min(head.size() + 1, line.size()));
+    const std::string word = head.substr(0, head.find('@')),
+                      process = head.substr(std::min(word.size() + 1, head.size()));
     if (word == "captured" || word == "recaptured" || word == "failed" || word == "listed") {
         seen.progress.clear();
     }
-    if (const auto kind = kinds.find(line.substr(0, space)); kind != kinds.end()) {
-        kind->second(line.substr(std::min(space + 1, line.size())), seen);
+    if (const auto kind = kinds.find(word); kind != kinds.end()) {
+        kind->second(rest, seen);
+    } else {
+        take_drawing(word, rest, process, seen);
     }
 }
 
@@ -61,7 +100,8 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     if (!seen.failed.empty()) {
         return seen.failed;
     }
-    if (seen.api.empty()) {
+    const Drawing drawing = principal(seen);
+    if (drawing.api.empty()) {
         return "no GL seen: " + ending;
     }
     if (seen.casting > 0) {
@@ -69,18 +109,26 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
                (seen.progress.empty() ? "" : ", at " + seen.progress) +
                " (a longer --timeout or a smaller -n helps)";
     }
-    if (!seen.waits.empty() && seen.frames == 0) {
-        return seen.api + " seen, but " + seen.waits + ", or no frame came after: " + ending;
+    const auto is_it = [&](const auto& entry) { return entry.second.order == drawing.order; };
+    const auto own = std::find_if(seen.drawings.begin(), seen.drawings.end(), is_it);
+    const bool is_another = !seen.started.empty() && own->first != seen.started && !drawing.name.empty();
+    const std::string where = is_another ? " in " + drawing.name : "";
+    if (!drawing.waits.empty() && drawing.frames == 0) {
+        return drawing.api + " seen" + where + ", but " + drawing.waits + ", or no frame came after: " + ending;
     }
     const std::string refused =
-        seen.refused.empty() ? "" : " (a frame could not be recorded: " + seen.refused + ")";
-    if (seen.frames == 0) {
-        return seen.api + " seen, but no whole frame" + refused + ": " + ending +
+        drawing.refused.empty() ? "" : " (a frame could not be recorded: " + drawing.refused + ")";
+    if (drawing.frames == 0 && !drawing.offscreen.empty()) {
+        return drawing.api + " seen" + where + ", but no whole frame" + refused + ": it draws into " +
+               drawing.offscreen + ", and neither swaps nor reads what it draws: " + ending;
+    }
+    if (drawing.frames == 0) {
+        return drawing.api + " seen" + where + ", but no whole frame" + refused + ": " + ending +
                " (if it draws only when its window is touched, --nudge helps)";
     }
-    return std::to_string(seen.frames) + (seen.frames == 1 ? " frame" : " frames or more") +
-           " seen through " + seen.api + ", none with solid geometry to cast: " +
-           (seen.seen.empty() ? "" : seen.seen + "; ") + ending;
+    return std::to_string(drawing.frames) + (drawing.frames == 1 ? " frame" : " frames or more") + " seen through " +
+           drawing.api + where + ", none with solid geometry to cast: " +
+           (drawing.seen.empty() ? "" : drawing.seen + "; ") + ending;
 }
 
 StatusPipe::StatusPipe() {

@@ -1,6 +1,7 @@
 // What the shim tells (docs/status-lines.md), and the pipe it comes through.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,22 @@ struct Capture {
     std::string figures = {}; ///< how it was made, for --verbose and --json
 };
 
-/// What is known of the program's drawing so far.
+/// What one process has told of its drawing: a script may start several programs.
+struct Drawing {
+    std::string api;       ///< "GLX", "EGL" or "OSMesa", empty while no GL was seen
+    std::string name;      ///< of its program
+    int order = 0;         ///< in which their first contexts came
+    long frames = 0;       ///< at least so many have ended without a cast
+    std::string waits;     ///< what no frame was taken without: "the key F12 was not pressed"
+    std::string seen;      ///< instead of a solid, with what to do
+    std::string offscreen; ///< where it draws that is no window
+    std::string refused;   ///< why a frame could not be recorded, the last one
+};
+
+/// What is known so far.
 struct Seen {
-    std::string api;     ///< "GLX" or "EGL", empty while no GL was seen
-    long frames = 0;     ///< at least so many have ended without a cast
-    std::string waits;   ///< what no frame was taken without: "the key F12 was not pressed"
-    std::string seen;    ///< instead of a solid, with what to do
-    std::string refused; ///< why a frame could not be recorded, the last one
+    std::map<std::string, Drawing> drawings; ///< by process
+    std::string started;                     ///< the process that glcast-run has started
     long casting = 0;    ///< the frame being cast
     std::string figures;           ///< of the capture that comes next
     std::vector<Capture> captures; ///< complete, in the order in which they came
@@ -37,6 +47,9 @@ struct Seen {
         return listed || (wanted > 0 && static_cast<long>(captures.size()) >= wanted) || (wanted == 1 && !failed.empty());
     }
 };
+
+/// Of whose drawing there is most to say: the process with most frames, then the one that was started, then the last.
+Drawing principal(const Seen& seen);
 
 /// Takes one line in; kinds that are not known are skipped.
 void take_line(const std::string& line, Seen& seen);

@@ -25,17 +25,15 @@ template <class Visit> void for_points(int rows, const Visit& visit) {
         }
 }
 
-FaceSums sum_face(const Mesh& mesh, const CapturedSurface& captured, const Triangle& t, const glm::vec3& normal,
-                  double reach) {
+FaceSums sum_face(const Mesh& mesh, const LookAtSurface& look, double sample, const Triangle& t, const glm::vec3& normal) {
     FaceSums face;
     const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const double sample = captured.sample();
     face.area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (sample * sample);
     if (normal == glm::vec3(0)) return face;
     const int rows = std::clamp(int(std::lround(std::sqrt(face.area))), fewest_rows, most_rows);
     const double weight = face.area / (rows * rows);
     for_points(rows, [&](const glm::dvec3& w) {
-        const CapturedPoint shown = captured.look(w.x * a + w.y * b + w.z * c, normal, normal, reach);
+        const CapturedPoint shown = look(w.x * a + w.y * b + w.z * c, normal);
         if (!shown.found) return;
         face.found += weight;
         face.products += glm::outerProduct(weight * w, w);
@@ -49,15 +47,22 @@ FaceSums sum_face(const Mesh& mesh, const CapturedSurface& captured, const Trian
 
 } // namespace
 
-std::vector<FaceSums> sum_faces(const Mesh& mesh, const CapturedSurface& captured,
+std::vector<FaceSums> sum_faces(const Mesh& mesh, const LookAtSurface& look, double sample,
                                 const std::vector<glm::vec3>& normals) {
     std::vector<FaceSums> faces(mesh.triangles.size());
-    const double reach = needed_reach(mesh, captured, normals);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), 64), [&](const auto& range) {
         for (std::size_t t = range.begin(); t < range.end(); ++t)
-            faces[t] = sum_face(mesh, captured, mesh.triangles[t], normals[t], reach);
+            faces[t] = sum_face(mesh, look, sample, mesh.triangles[t], normals[t]);
     });
     return faces;
+}
+
+std::vector<FaceSums> sum_faces(const Mesh& mesh, const CapturedSurface& captured,
+                                const std::vector<glm::vec3>& normals) {
+    const double reach = needed_reach(mesh, captured, normals);
+    return sum_faces(
+        mesh, [&](const glm::dvec3& point, const glm::vec3& facing) { return captured.look(point, facing, facing, reach); },
+        captured.sample(), normals);
 }
 
 std::array<glm::dvec3, 3> corner_values(const FaceSums& face, const std::array<glm::dvec3, 3>& right) {

@@ -1,6 +1,7 @@
 // What the captured surface shows over each triangle of a level. Internal.
 #pragma once
 #include <array>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <vector>
 
@@ -18,7 +19,12 @@ struct FaceSums {
     double found = 0; ///< of it, where something is shown: 0 where nothing is
 };
 
-/// `normals`: of the triangles, unit, or 0 where one has no area.
+/// What there is to see next to a point of a triangle whose normal is `facing`.
+using LookAtSurface = std::function<CapturedPoint(const glm::dvec3& point, const glm::vec3& facing)>;
+
+/// `normals`: of the triangles, unit, or 0 where one has no area; `sample`: model units. `look` is called from many threads.
+std::vector<FaceSums> sum_faces(const Mesh& mesh, const LookAtSurface& look, double sample,
+                                const std::vector<glm::vec3>& normals);
 std::vector<FaceSums> sum_faces(const Mesh& mesh, const CapturedSurface& captured,
                                 const std::vector<glm::vec3>& normals);
 

@@ -7,6 +7,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "tools/deviation/surface_index.h"
+#include "tools/mesh/point_triangle.h"
 #include "tools/texture/conjugate_gradients.h"
 #include "tools/texture/corner_groups.h"
 #include "tools/texture/shading_normals.h"
@@ -136,15 +138,11 @@ bool take_largest(Mesh& mesh, const Wedges& wedges, const std::vector<FaceSums>&
     return several;
 }
 
-} // namespace
-
-void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOptions& options) {
-    level.wedges = {};
+/// Whatever the sums are of.
+void fit_to(const std::vector<FaceSums>& faces, Level& level, const std::vector<glm::vec3>& normals,
+            const WedgeOptions& options) {
     Mesh& mesh = level.mesh;
-    if (captured.empty() || mesh.triangles.empty()) return;
     const Neighbours neighbours = find_neighbours(mesh);
-    const std::vector<glm::vec3> normals = triangle_normals(mesh);
-    const std::vector<FaceSums> faces = sum_faces(mesh, captured, normals);
     Wedges wedges;
     std::uint32_t count = 0;
     wedges.corners = group_corners(mesh, neighbours, faces, normals, {options.degrees, options.colour}, count);
@@ -155,6 +153,50 @@ void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOption
                                                own_values(mesh.colours, mesh, wedges.corners, count)));
     bound_normals(mesh, wedges, normals, options.farthest_degrees);
     if (take_largest(mesh, wedges, faces)) level.wedges = std::move(wedges);
+}
+
+/// Length of a sample, by the surface that has about a vertex for each.
+double sample_of(const Mesh& surface) {
+    double area = 0;
+    for (const Triangle& t : surface.triangles) {
+        const glm::dvec3& a = surface.positions[t[0]];
+        area += glm::length(glm::cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a)) / 2;
+    }
+    return std::sqrt(area / double(surface.positions.size()));
+}
+
+/// Of the triangles that face as asked, the nearest point.
+CapturedPoint look_at(const Mesh& surface, const SurfaceIndex& index, const glm::dvec3& point, const glm::vec3& facing) {
+    const std::uint32_t t = index.nearest_facing(point, facing, index.nearest(point)).triangle;
+    const std::array<glm::dvec3, 3> corners = index.corners(t);
+    const TrianglePoint at = nearest_in_triangle(point, corners[0], corners[1], corners[2]);
+    CapturedPoint seen{at.point};
+    for (int k = 0; k < 3; ++k) {
+        seen.normal += float(at.weights[k]) * surface.normals[surface.triangles[t][std::size_t(k)]];
+        seen.colour += float(at.weights[k]) * surface.colours[surface.triangles[t][std::size_t(k)]];
+    }
+    const float length = glm::length(seen.normal);
+    seen.found = length > 1e-6f;
+    if (seen.found) seen.normal *= 1 / length;
+    return seen;
+}
+
+} // namespace
+
+void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOptions& options) {
+    level.wedges = {};
+    if (captured.empty() || level.mesh.triangles.empty()) return;
+    const std::vector<glm::vec3> normals = triangle_normals(level.mesh);
+    fit_to(sum_faces(level.mesh, captured, normals), level, normals, options);
+}
+
+void fit_wedges(Level& level, const Mesh& surface, const WedgeOptions& options) {
+    level.wedges = {};
+    if (level.mesh.triangles.empty() || surface.triangles.empty() || surface.normals.empty() || surface.colours.empty()) return;
+    const SurfaceIndex index(surface, SurfaceIndex::Tree::quick);
+    const std::vector<glm::vec3> normals = triangle_normals(level.mesh);
+    const auto look = [&](const glm::dvec3& point, const glm::vec3& facing) { return look_at(surface, index, point, facing); };
+    fit_to(sum_faces(level.mesh, look, sample_of(surface), normals), level, normals, options);
 }
 
 } // namespace glcast

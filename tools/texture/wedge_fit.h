@@ -25,4 +25,8 @@ struct WedgeOptions {
 /// captured.
 void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOptions& options = {});
 
+/// The same for what a surface shows that the level is one of, by the normals and colours of its vertices: where the
+/// captured surface is no longer at hand. Does nothing where it has none.
+void fit_wedges(Level& level, const Mesh& surface, const WedgeOptions& options = {});
+
 } // namespace glcast

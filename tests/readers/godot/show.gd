@@ -43,10 +43,11 @@ func measure(item):
 	for k in range(item.mesh.get_surface_count()):
 		var arrays = item.mesh.surface_get_arrays(k)
 		found["triangles"] += arrays[Mesh.ARRAY_INDEX].size() / 3
-		found["colours"] = found["colours"] or arrays[Mesh.ARRAY_COLOR] != null
 		found["normals"] = found["normals"] and arrays[Mesh.ARRAY_NORMAL] != null
 		var material = item.mesh.surface_get_material(k)
 		if material is SpatialMaterial:
+			if arrays[Mesh.ARRAY_COLOR] != null and material.vertex_color_use_as_albedo or material.albedo_color != Color(1, 1, 1):
+				found["colours"] = true
 			for slot in [SpatialMaterial.TEXTURE_ALBEDO, SpatialMaterial.TEXTURE_NORMAL]:
 				var texture = material.get_texture(slot)
 				if texture:

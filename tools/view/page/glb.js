@@ -101,7 +101,31 @@ function withHeader(json, chunk) {
   return new Blob([head, ...chunk.parts], { type: 'model/gltf-binary' });
 }
 
+const mostMaterials = 32;
+
+/** Corners of the triangles of each plain colour, by that; null where corners of a triangle differ, or there are too many. */
+function plainColours({ colour, corners }) {
+  const parts = new Map();
+  const of = (corner) => (colour[4 * corner] << 16) | (colour[4 * corner + 1] << 8) | colour[4 * corner + 2];
+  for (let k = 0; k < corners.length; k += 3) {
+    const triangle = corners.subarray(k, k + 3), first = of(triangle[0]);
+    if (of(triangle[1]) !== first || of(triangle[2]) !== first) return null;
+    if (!parts.has(first) && parts.size === mostMaterials) return null;
+    parts.set(first, parts.get(first) ?? []).get(first).push(...triangle);
+  }
+  return parts;
+}
+
+const matt = (more = {}) => ({ pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 0.8, ...more } });
+
+function plainMaterial(colour) {
+  const factor = [colour >> 16, (colour >> 8) & 255, colour & 255].map((byte) => toLinear(byte / 255));
+  return { name: `colour_${colour.toString(16).padStart(6, '0')}`, ...matt({ baseColorFactor: [...factor, 1] }) };
+}
+
 /**
+ * Plain colours are materials: Blender 3.4 and Godot 3.2 show no colours of vertices.
+ *
  * @param {any} scene its cube: lo, size @param {import('./levels.js').Arrays} arrays
  * @param {(HTMLImageElement|null)[]} images colours and normals of its texture @param {string} name
  * @returns {Blob}
@@ -112,24 +136,28 @@ export function glbOf(scene, arrays, images, name) {
   const attributes = { POSITION: chunk.accessor(data, float, 'VEC3', count, { min, max }) };
   if (arrays.normal) attributes.NORMAL = chunk.accessor(directions(arrays.normal, count, 3), float, 'VEC3', count);
   const textured = Boolean(images[0] && arrays.coordinate);
+  const plain = !textured && arrays.colour ? plainColours(arrays) : null;
   if (textured) {
     const coordinates = Float32Array.from(arrays.coordinate, (value) => value / 65535);
     attributes.TEXCOORD_0 = chunk.accessor(coordinates, float, 'VEC2', count);
     if (images[1] && arrays.normal) attributes.TANGENT = chunk.accessor(directions(arrays.tangent, count, 4), float, 'VEC4', count);
-  } else if (arrays.colour) {
+  } else if (arrays.colour && !plain) {
     attributes.COLOR_0 = chunk.accessor(colours(arrays.colour, count), uint16, 'VEC4', count, { normalized: true });
   }
-  const indices = chunk.accessor(arrays.corners, uint32, 'SCALAR', arrays.corners.length, { target: elementArrayBuffer });
-  const material = { pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 0.8 } };
+  const parts = plain ? [...plain.values()].map((corners) => Uint32Array.from(corners)) : [arrays.corners];
+  const materials = plain ? [...plain.keys()].map(plainMaterial) : [matt()];
+  const primitives = parts.map((corners, material) => ({
+    attributes, material, indices: chunk.accessor(corners, uint32, 'SCALAR', corners.length, { target: elementArrayBuffer }),
+  }));
   const json = {
     asset: { version: '2.0', generator: `glcast ${scene.version}, the page of glcast view` },
     scene: 0,
     scenes: [{ nodes: [0] }],
     nodes: [{ name, mesh: 0, translation: scene.lo.map((value) => value + scene.size / 2) }],
-    meshes: [{ name, primitives: [{ attributes, indices, material: 0 }] }],
-    materials: [material],
+    meshes: [{ name, primitives }],
+    materials,
   };
-  if (textured) addTextures(json, chunk, material, images);
+  if (textured) addTextures(json, chunk, materials[0], images);
   return withHeader({ ...json, accessors: chunk.accessors, bufferViews: chunk.views, buffers: [{ byteLength: chunk.length }] }, chunk);
 }
 

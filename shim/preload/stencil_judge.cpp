@@ -1,0 +1,187 @@
+#include "shim/preload/stencil_judge.h"
+
+#include <algorithm>
+#include <map>
+
+#include "capture/engine_target.h"
+#include "shim/preload/scene_table.h"
+#include "shim/preload/scene_thumbnail.h"
+
+namespace glcast::preload {
+namespace {
+
+constexpr int picture_size = 256;
+constexpr std::size_t most_kinds = 16; ///< of marks that are looked at
+
+/// Of what the draws in question are counted.
+enum class Counted { all, before, behind };
+
+constinit thread_local const GlTable* inner_table = nullptr;
+
+bool is_judges(GLenum cap) {
+    switch (cap) {
+    case GL_DEPTH_TEST:
+    case GL_CULL_FACE:
+    case GL_POLYGON_OFFSET_FILL:
+    case GL_BLEND:
+    case GL_LIGHTING:
+        return true;
+    default:
+        return false;
+    }
+}
+void APIENTRY enable(GLenum cap) {
+    if (!is_judges(cap)) inner_table->Enable(cap);
+}
+void APIENTRY disable(GLenum cap) {
+    if (!is_judges(cap)) inner_table->Disable(cap);
+}
+void APIENTRY push_attrib(GLbitfield mask) {
+    inner_table->PushAttrib(mask & ~GLbitfield(GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT));
+}
+template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+struct Ignored;
+template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
+    static R APIENTRY call(A...) { return R(); }
+};
+template <auto... Members> void ignore(GlTable& table) { ((table.*Members = Ignored<Members>::call), ...); }
+
+/// The program's drawing without its depth test, culling and offsets, which are the judge's.
+GlTable judges_table(const GlTable& picture) {
+    using G = GlTable;
+    inner_table = &picture;
+    GlTable table = picture;
+    ignore<&G::DepthFunc, &G::DepthMask, &G::DepthRange, &G::CullFace, &G::FrontFace, &G::PolygonMode,
+           &G::PolygonOffset, &G::BeginQuery, &G::EndQuery>(table);
+    table.Enable = enable;
+    table.Disable = disable;
+    table.PushAttrib = push_attrib;
+    return table;
+}
+
+/// Lets through marks and the draws in question, and counts these.
+class Gate final : public DrawGate {
+  public:
+    Gate(const GlTable& table, const GlTable& of, bool is_reversed, const std::vector<std::size_t>& marking,
+         const std::vector<std::size_t>& asked, Counted what)
+        : DrawGate(table), gl(of), reversed(is_reversed), marks(marking), questions(asked), counted(what),
+          queries(asked.size()) {
+        gl.GenQueries(static_cast<GLsizei>(queries.size()), queries.data());
+    }
+    ~Gate() override { gl.DeleteQueries(static_cast<GLsizei>(queries.size()), queries.data()); }
+
+    bool keep(GLenum, long) override {
+        const std::size_t draw = next++;
+        const auto asked = std::find(questions.begin(), questions.end(), draw);
+        if (asked != questions.end()) {
+            look();
+            gl.BeginQuery(GL_SAMPLES_PASSED, queries[static_cast<std::size_t>(asked - questions.begin())]);
+            return is_counting = true;
+        }
+        if (!std::binary_search(marks.begin(), marks.end(), draw)) return false;
+        mark();
+        return true;
+    }
+    void drawn() override {
+        if (is_counting) gl.EndQuery(GL_SAMPLES_PASSED);
+        is_counting = false;
+    }
+
+    long count(std::size_t question) const {
+        GLuint samples = 0;
+        gl.GetQueryObjectuiv(queries[question], GL_QUERY_RESULT, &samples);
+        return static_cast<long>(samples);
+    }
+
+  private:
+    void mark() const {
+        gl.DepthMask(GL_TRUE);
+        gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
+        gl.Disable(GL_POLYGON_OFFSET_FILL);
+        gl.StencilFunc(GL_ALWAYS, 1, ~0u);
+        gl.StencilOp(GL_KEEP, GL_REPLACE, GL_REPLACE);
+    }
+
+    /// What lies within rounding of a mark is neither before it nor behind it.
+    void look() const {
+        constexpr float slopes = 1.0f / 16, units = 16;
+        gl.DepthMask(GL_FALSE);
+        gl.StencilFunc(GL_EQUAL, 1, ~0u);
+        gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+        gl.DepthFunc(GL_ALWAYS);
+        if (counted == Counted::all) return;
+        const bool is_less = (counted == Counted::before) != reversed;
+        gl.DepthFunc(is_less ? GL_LESS : GL_GREATER);
+        gl.Enable(GL_POLYGON_OFFSET_FILL);
+        gl.PolygonOffset(is_less ? slopes : -slopes, is_less ? units : -units);
+    }
+
+    const GlTable& gl;
+    const bool reversed;
+    const std::vector<std::size_t>& marks;
+    const std::vector<std::size_t>& questions;
+    const Counted counted;
+    std::vector<GLuint> queries;
+    std::size_t next = 0;
+    bool is_counting = false;
+};
+
+void prepare(const GlTable& gl, const Target& target, const Group& group) {
+    const auto& viewport = group.viewport;
+    const int longer = std::max({viewport[2], viewport[3], 1});
+    target.bind();
+    gl.Viewport(0, 0, std::max(1, picture_size * viewport[2] / longer),
+                std::max(1, picture_size * viewport[3] / longer));
+    for (const GLenum cap : {GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND, GL_LIGHTING}) gl.Disable(cap);
+    for (const GLenum cap : {GL_DEPTH_TEST, GL_STENCIL_TEST}) gl.Enable(cap);
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl.DepthRange(0, 1);
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0u);
+    gl.ClearDepth(group.depth_reversed ? 0 : 1);
+    gl.ClearStencil(0);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+std::vector<long> count(const GlTable& gl, const Target& target, const record::Frame& frame,
+                        const Group& group, const std::vector<std::size_t>& marks,
+                        const std::vector<std::size_t>& draws, Counted what) {
+    prepare(gl, target, group);
+    const GlTable picture = picture_table(gl), table = judges_table(picture);
+    std::vector<long> counts;
+    Gate gate(table, gl, group.depth_reversed, marks, draws, what);
+    record::replay(frame, gated_table(gate));
+    for (std::size_t i = 0; i < draws.size(); ++i) counts.push_back(gate.count(i));
+    target.bind();
+    return counts;
+}
+
+bool can_count(const GlTable& gl) {
+    return has_framebuffer_calls(gl) && gl.GenQueries && gl.BeginQuery && gl.EndQuery &&
+           gl.GetQueryObjectuiv && gl.DeleteQueries;
+}
+
+} // namespace
+
+void judge(const GlTable& real, const record::Frame& frame, Scene& scene, int group, StencilPlan& plan) {
+    const GlTable gl = with_framebuffer_calls(real);
+    if (plan.questions.empty() || !can_count(gl)) return;
+    std::map<std::vector<std::size_t>, std::vector<const StencilQuestion*>> by_marks;
+    for (const StencilQuestion& question : plan.questions) by_marks[question.marks].push_back(&question);
+    const Target target(gl, picture_size, false);
+    if (!target.complete() || by_marks.size() > most_kinds) return;
+    for (const auto& [marks, questions] : by_marks) {
+        std::vector<std::size_t> draws;
+        for (const StencilQuestion* question : questions) draws.push_back(question->draw);
+        const auto counted = [&](Counted what) {
+            return count(gl, target, frame, scene.groups[group], marks, draws, what);
+        };
+        const auto all = counted(Counted::all), before = counted(Counted::before),
+                   behind = counted(Counted::behind);
+        for (std::size_t i = 0; i < questions.size(); ++i)
+            answer(scene, plan, *questions[i], {all[i], before[i], behind[i]});
+    }
+    swallow_errors(gl);
+}
+
+} // namespace glcast::preload

@@ -1,0 +1,120 @@
+// Faces that are drawn into the depth buffer alone, and draws that are missing: a cast of what the window
+// shows, or the reason that holds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "tests/preload/program_run.h"
+
+namespace glcast::test {
+namespace {
+
+constexpr double body = 6, grid = 0.04; // as in reads_test.cpp
+
+struct HiddenRun {
+    Outcome outcome;
+    std::optional<Capture> capture;
+};
+
+HiddenRun cast(const std::string& way, Environment environment = {}) {
+    const TemporaryFolder folder;
+    environment["GLCAST_OUT"] = folder / "cast.exr";
+    environment["GLCAST_N"] = "48";
+    HiddenRun run;
+    run.outcome = run_program({HIDDEN, way}, environment, true);
+    EXPECT_EQ(run.outcome.exit_code, 0);
+    EXPECT_NE(run.outcome.out.find("error 0"), std::string::npos) << run.outcome.out;
+    if (std::filesystem::exists(folder / "cast.exr")) run.capture = read_capture(folder / "cast.exr");
+    return run;
+}
+
+/// Of all hits in all views.
+double share_of_colour(const Capture& capture, const glm::vec3& colour) {
+    long hits = 0, alike = 0;
+    for (const ViewImage& image : capture.images)
+        for (std::size_t i = 0; i < image.depth.size(); ++i) {
+            if (!image.covered(i)) continue;
+            ++hits;
+            alike += glm::distance(glm::vec3(image.colour[i]), colour) < 0.01f;
+        }
+    return hits > 0 ? double(alike) / hits : 0;
+}
+
+const glm::vec3 background(0.125f, 0.25f, 0.5f), orange(1, 0.5f, 0), white(1);
+
+class HiddenLine : public testing::TestWithParam<std::string> {};
+TEST_P(HiddenLine, is_cast_in_the_colour_of_the_background) {
+    const HiddenRun run = cast(GetParam());
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    EXPECT_NEAR(volume(*run.capture), body, grid * body);
+    EXPECT_EQ(share_of_colour(*run.capture, background), 1);
+    EXPECT_EQ(run.capture->info.not_understood.size(), 1u);
+    EXPECT_NE(run.outcome.err.find("colour of the background"), std::string::npos) << run.outcome.err;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, HiddenLine,
+                         testing::Values("mask-outlines", "mask-lines", "equal-outlines", "lit-textured",
+                                         "arrays-lines", "colours-lines"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(Hidden, lines_are_offered_and_cast_when_asked_for) {
+    EXPECT_NE(cast("mask-lines").outcome.err.find("--include lines"), std::string::npos);
+    const HiddenRun run = cast("mask-lines", {{"GLCAST_INCLUDE", "lines"}});
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    EXPECT_GT(share_of_colour(*run.capture, white), 0.05);
+    EXPECT_GT(share_of_colour(*run.capture, background), 0.5);
+}
+
+TEST(Hidden, faces_that_get_their_colours_later_have_these) {
+    const HiddenRun run = cast("depth-first");
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    EXPECT_NEAR(volume(*run.capture), body, grid * body);
+    EXPECT_EQ(share_of_colour(*run.capture, orange), 1);
+    EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
+}
+
+TEST(Hidden, faces_with_nothing_over_them_are_told_of) {
+    const HiddenRun run = cast("mask-alone");
+    EXPECT_FALSE(run.capture);
+    EXPECT_NE(run.outcome.err.find("masked colours"), std::string::npos) << run.outcome.err;
+}
+
+// ctmviewer: lists shaded by GLSL, and lines and pixels beside them.
+TEST(Hidden, lists_under_a_shader_are_told_of) {
+    for (const char* way : {"shaded-list", "shading-list"}) {
+        const HiddenRun run = cast(way);
+        EXPECT_FALSE(run.capture);
+        EXPECT_NE(run.outcome.err.find("draws with shaders of its own"), std::string::npos)
+            << run.outcome.err;
+    }
+}
+
+// A script starts one program after the other.
+TEST(Hidden, reason_of_one_program_is_never_said_of_another) {
+    const TemporaryFolder folder;
+    const auto told_by = [&](const std::string& script) {
+        const Outcome outcome = run_program(
+            {GLCAST_RUN, "-o", folder / "cast.exr", "--timeout", "60", "--", "sh", "-c", script}, {}, false);
+        EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+        return outcome.err;
+    };
+    const std::string other = READS " pbuffer-unread", own = HIDDEN " mask-alone";
+    for (const std::string& script : {other + "; " + own, own + "; " + other}) {
+        const std::string told = told_by(script);
+        EXPECT_NE(told.find("masked colours"), std::string::npos) << told;
+        EXPECT_NE(told.find("in hidden"), std::string::npos) << told;
+    }
+    EXPECT_NE(
+        told_by(other + "; true").find("GLX seen in reads, but no whole frame: it draws into a pbuffer"),
+        std::string::npos);
+    EXPECT_EQ(told_by("exec " + other).find("in reads"), std::string::npos);
+}
+
+} // namespace
+} // namespace glcast::test
