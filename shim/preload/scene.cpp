@@ -26,8 +26,7 @@ class GroupFilter final : public DrawGate {
     GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what, const Sought& sought_for,
                 DrawPlaces* all_places)
         : DrawGate(gl), scene(of), group(index), wanted(what), sought(sought_for), places(all_places) {
-        // Draws outside of what is sought may still mark the stencil buffer.
-        if ((!sought.open && !sought.corners) || wanted.stencil) places = nullptr;
+        if (!sought.open && !sought.corners) places = nullptr; // passes that find marks of the stencil test seek all
         if (places) places->begin(sought.eye_to_capture);
     }
 
