@@ -203,9 +203,10 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
 Sought PassRunner::sought(const Pass& pass, bool learning) const {
     Sought sought;
     sought.eye_to_capture = eye_to_capture;
+    sought.notes_places = pass.outline != nullptr;
     if (learning) return sought;
     const bool shifts = pass.offsets && offset_levels.several();
-    if (!shifts) sought.open = pass.open;
+    if (!shifts) sought.open = pass.open, sought.outline = pass.outline;
     if (pass.polygon_mode == GL_POINT && !shifts) sought.corners = &pass.box;
     return sought;
 }

@@ -43,6 +43,7 @@ struct Pass {
     double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
     std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
     const OpenTiles* open = nullptr;    ///< where and how deep something may be found; null: everywhere
+    Outline* outline = nullptr;         ///< where only its reach is looked for
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
     bool culls = false;                 ///< the program's face culling holds
     bool offsets = true;                ///< coplanar surfaces are told apart (depth_offset.h)

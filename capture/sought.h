@@ -51,6 +51,27 @@ class OpenTiles {
     std::vector<Tile> tiles;
 };
 
+/// Of a pass that only looks how far things reach: faces well inside of the rest are left out, and noted.
+/// What is then seen must enclose them, else they are to be drawn after all.
+class Outline {
+  public:
+    /// An image of m x m pixels of the box.
+    Outline(const Box& box, Axis axis, int m);
+
+    /// `lo`, `hi`: of everything.
+    bool leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi);
+    bool has_left_out() const { return left_lo.x <= left_hi.x; }
+    /// Do these bounds, in the capture frame, enclose what was left out?
+    bool is_enclosed(const glm::dvec3& lo, const glm::dvec3& hi) const;
+
+  private:
+    const Box box;
+    const ImageAxes axes;
+    const int m;
+    double rounding; ///< of a driver, in boxes
+    glm::dvec3 left_lo, left_hi;
+};
+
 struct Sought {
     glm::dmat4 eye_to_capture{1.0};
     /// Null: everything counts.
@@ -58,6 +79,9 @@ struct Sought {
     /// Polygons are drawn as points, and what lies in this box may be drawn as GL_POINTS at once. Null: as it
     /// is.
     const Box* corners = nullptr;
+    /// Null: all is to be drawn.
+    Outline* outline = nullptr;
+    bool notes_places = false; ///< where draws lie will be wanted in the passes that follow
 };
 
 } // namespace glcast

@@ -70,7 +70,7 @@ class PlaceFinder {
     }
 
     const std::vector<glm::dvec3>& at;
-    Place place{glm::dvec3(INFINITY), glm::dvec3(-INFINITY), glm::dvec3(0), glm::dvec3(INFINITY)};
+    Place place = nowhere;
 };
 
 bool is_finite(const Place& place) {
@@ -108,20 +108,14 @@ std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::d
 }
 
 void DrawPlaces::begin(const glm::dmat4& eye_to_capture) {
-    if (frame != eye_to_capture) known.clear();
+    if (frame != eye_to_capture) *this = {};
     frame = eye_to_capture;
 }
 
-std::vector<record::DrawShape::Part> seen_parts(const DrawPlace& place, const OpenTiles& open) {
-    std::vector<record::DrawShape::Part> seen;
-    for (const DrawPlace::Part& part : place.parts) {
-        if (!open.meet(part.place)) continue;
-        if (!seen.empty() && seen.back().first + seen.back().count >= part.first)
-            seen.back().count = part.first + part.count - seen.back().first;
-        else
-            seen.push_back(part);
-    }
-    return seen;
+void DrawPlaces::note(const std::unique_ptr<std::optional<DrawPlace>>& place) {
+    if (!*place) return;
+    for (const DrawPlace::Part& part : (*place)->parts)
+        all.lo = glm::min(all.lo, part.place.lo), all.hi = glm::max(all.hi, part.place.hi);
 }
 
 bool lies_inside(const DrawPlace& place, const Box& box) {

@@ -26,7 +26,8 @@ class GroupFilter final : public DrawGate {
     GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what, const Sought& sought_for,
                 DrawPlaces* all_places)
         : DrawGate(gl), scene(of), group(index), wanted(what), sought(sought_for), places(all_places) {
-        if (!sought.open && !sought.corners) places = nullptr; // passes that find marks of the stencil test seek all
+        // Passes that find marks of the stencil test look for all.
+        if (!sought.open && !sought.corners && !sought.outline && !sought.notes_places) places = nullptr;
         if (places) places->begin(sought.eye_to_capture);
     }
 
@@ -62,6 +63,9 @@ class GroupFilter final : public DrawGate {
         eye_space.leave();
         if (wanted.stencil) wanted.stencil->end_draw();
     }
+    void finish() {
+        if (places) places->end();
+    }
     bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
     bool fixes_colour() const override { return hidden_faces.entered(); }
 
@@ -83,13 +87,26 @@ class GroupFilter final : public DrawGate {
             return find_place(*shape, to_eye, sought.eye_to_capture);
         });
         if (!place) return true;
-        if (sought.open) {
-            auto seen = seen_parts(*place, *sought.open);
+        if (sought.open || can_be_left_out()) {
+            auto seen = parts_of(*place, [&](const Place& part) {
+                return sought.open ? sought.open->meet(part)
+                                   : !sought.outline->leave_out(part, places->around()->lo, places->around()->hi);
+            });
             if (seen.empty()) return false;
             if (place->parts.size() > 1) parts = std::move(seen);
         }
         as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) && points_are_the_same();
         return true;
+    }
+
+    /// From an outline: where corners are drawn as points, these reach no farther than a pixel.
+    bool can_be_left_out() const {
+        if (!sought.outline || !places->around()) return false;
+        GLfloat size = 1, least = 0, attenuation[3] = {1, 0, 0};
+        inner.GetFloatv(GL_POINT_SIZE, &size);
+        inner.GetFloatv(GL_POINT_SIZE_MIN, &least);
+        inner.GetFloatv(GL_POINT_DISTANCE_ATTENUATION, attenuation);
+        return size <= 1 && least <= 1 && attenuation[0] == 1 && attenuation[1] == 0 && attenuation[2] == 0;
     }
 
     /// As GL_POINTS, the vertices of polygons are neither clipped nor tested otherwise than as corners.
@@ -170,6 +187,7 @@ void replay_group(const record::Frame& frame, const Scene& scene, int group, con
                   const GlTable& gl, const Sought& sought, DrawPlaces* places) {
     GroupFilter filter(gl, scene, group, wanted, sought, places);
     record::replay(frame, gated_table(filter));
+    filter.finish();
 }
 
 std::string describe(const Group& group) {
