@@ -12,7 +12,7 @@ constexpr int most_tiles_across = 128;
 /// for.
 constexpr double snap = 1.0 / 16;
 /// Of what is seen narrower than this, in roundings, a driver's slopes are noise.
-constexpr double narrow = 64;
+constexpr double narrow = 8;
 } // namespace
 
 namespace {
@@ -81,7 +81,7 @@ bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dve
     for (int i = 0; i < 3; ++i) {
         if (lo[i] < box.lo[i] + pixel || hi[i] > box.lo[i] + box.size - pixel)
             return false; // it may be cut there
-        const double margin = std::max(4 * pixel, rim * (hi[i] - lo[i]));
+        const double margin = std::max(4 * snap * pixel, rim * (hi[i] - lo[i]));
         if (!(place_lo[i] > lo[i] + margin && place_hi[i] < hi[i] - margin)) return false;
     }
     for (int i = 0; i < 3; ++i)
@@ -92,7 +92,7 @@ bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dve
 bool Outline::is_enclosed(const glm::dvec3& lo, const glm::dvec3& hi) const {
     const double pixel = box.size / m;
     for (int i = 0; i < 3; ++i) {
-        const double margin = i == axes.depth ? 4 * rounding * box.size : 2 * pixel;
+        const double margin = i == axes.depth ? 4 * rounding * box.size : 2 * snap * pixel; // within the same pixels
         if (!(left_lo[i] > lo[i] + margin && left_hi[i] < hi[i] - margin)) return false;
     }
     return true;
