@@ -73,7 +73,7 @@ Outline::Outline(const Box& of, Axis axis, int m)
       left_lo(std::numeric_limits<double>::infinity()), left_hi(-std::numeric_limits<double>::infinity()) {}
 
 bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi) {
-    constexpr double rim = 0.02; // of what there is
+    constexpr double rim = 0.004; // of what there is
     const double pixel = box.size / m;
     const double carried = carried_depth(place, axes.depth, box, m, rounding) * box.size;
     glm::dvec3 place_lo = place.lo, place_hi = place.hi;
@@ -81,7 +81,7 @@ bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dve
     for (int i = 0; i < 3; ++i) {
         if (lo[i] < box.lo[i] + pixel || hi[i] > box.lo[i] + box.size - pixel)
             return false; // it may be cut there
-        const double margin = std::max(4 * snap * pixel, rim * (hi[i] - lo[i]));
+        const double margin = std::max(2.5 * snap * pixel, rim * (hi[i] - lo[i]));
         if (!(place_lo[i] > lo[i] + margin && place_hi[i] < hi[i] - margin)) return false;
     }
     for (int i = 0; i < 3; ++i)
