@@ -12,6 +12,7 @@ add_library(glcast_engine STATIC
     engine_sides.cpp
     engine_slab.cpp
     engine_target.cpp
+    sought.cpp
     forced_calls.cpp
     forced_caps.cpp
     forced_state.cpp

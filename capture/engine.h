@@ -5,8 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "capture/gl/gl_table.h"
+#include "capture/sought.h"
 #include "capture/view.h"
 #include "capture/view_image.h"
 
@@ -18,7 +21,23 @@ class ProgramStencil;
 /// clear and change matrices: the table forces what a pass needs (capture/forced_table.h). It is called many
 /// times and must draw the same each time. State it relies on, it must set (a replayed frame starts with its
 /// own prologue).
-using DrawFunction = std::function<void(const GlTable& gl)>;
+class DrawFunction {
+  public:
+    DrawFunction() = default;
+    /// Of a function that always draws everything, or of one that is also told what the pass looks for.
+    template <class Function>
+        requires(!std::is_same_v<std::remove_cvref_t<Function>, DrawFunction>)
+    DrawFunction(Function function) {
+        if constexpr (std::is_invocable_v<Function&, const GlTable&, const Sought&>)
+            draw = std::move(function);
+        else
+            draw = [function = std::move(function)](const GlTable& gl, const Sought&) { function(gl); };
+    }
+    void operator()(const GlTable& gl, const Sought& sought = {}) const { draw(gl, sought); }
+
+  private:
+    std::function<void(const GlTable& gl, const Sought& sought)> draw;
+};
 
 enum class NormalMethod {
     signed_lights, ///< one render, lights of positive and negative colour

@@ -64,31 +64,66 @@ void include(Bounds& bounds, const Extent& e, const Box& box, Axis axis, int m) 
         e.u0 == 0 || e.v0 == 0 || e.u1 == m - 1 || e.v1 == m - 1 || e.near < edge || e.far > 1 - edge;
 }
 
+/// What was left out lies inside of what is seen of the rest, from both sides: all of it reaches no farther.
+/// The least depth is seen from the minus side, the greatest, of corners, from the plus side; nothing that is
+/// filled is deeper.
+bool encloses(const Outline& outline, const Extent& minus, const Extent& plus, const Box& box, Axis axis,
+              int m) {
+    if (!outline.has_left_out()) return true;
+    if (minus.u1 < 0 || plus.u1 < 0 || minus.far > plus.far) return false;
+    const ImageAxes axes = image_axes(axis);
+    const double pixel = box.size / m;
+    glm::dvec3 lo, hi;
+    lo[axes.u] = box.lo[axes.u] + minus.u0 * pixel, hi[axes.u] = box.lo[axes.u] + (minus.u1 + 1) * pixel;
+    lo[axes.v] = box.lo[axes.v] + minus.v0 * pixel, hi[axes.v] = box.lo[axes.v] + (minus.v1 + 1) * pixel;
+    lo[axes.depth] = box.lo[axes.depth] + minus.near * box.size;
+    hi[axes.depth] = box.lo[axes.depth] + plus.far * box.size;
+    return outline.is_enclosed(lo, hi);
+}
+
 /// Polygons are drawn as points too: their corners show however small or thin they are, and their extreme
 /// depths are the extremes of anything flat. Filled, they show where clip planes and holes end them.
 /// `until_cut`: once something touches a side of the box, the rest is not worth drawing.
-Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool until_cut) {
-    Bounds bounds;
+/// False where faces were left out that are to be drawn after all.
+bool look_along(PassRunner& passes, const Target& target, const Box& box, Axis axis, bool until_cut,
+                Outline* outline, Bounds& bounds) {
     std::vector<float> depth;
+    Extent extents[2];
     Pass pass;
     pass.box = box;
     pass.offsets = false; // they change no extent
-    for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
-        pass.axis = axis;
-        for (Side side : {Side::minus, Side::plus}) {
-            pass.side = side;
-            pass.depth = DepthRule::first;
-            pass.polygon_mode = GL_POINT;
+    pass.axis = axis;
+    pass.outline = outline;
+    for (Side side : {Side::minus, Side::plus}) {
+        pass.side = side;
+        pass.depth = DepthRule::first;
+        pass.polygon_mode = GL_POINT;
+        passes.run(pass, target);
+        if (side == Side::minus) {
+            pass.depth = DepthRule::add;
+            pass.polygon_mode = GL_FILL;
             passes.run(pass, target);
-            if (side == Side::minus) {
-                pass.depth = DepthRule::add;
-                pass.polygon_mode = GL_FILL;
-                passes.run(pass, target);
-            }
-            target.read_depth(depth);
-            include(bounds, extent_of(depth, target.size(), side), box, axis, target.size());
-            if (until_cut && bounds.touches) return bounds;
         }
+        target.read_depth(depth);
+        Extent& extent = extents[static_cast<int>(side)];
+        extent = extent_of(depth, target.size(), side);
+        include(bounds, extent, box, axis, target.size());
+        if (until_cut && bounds.touches) return !(outline && outline->has_left_out());
+    }
+    return !outline || encloses(*outline, extents[0], extents[1], box, axis, target.size());
+}
+
+Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool until_cut) {
+    Bounds bounds;
+    for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        Outline outline(box, axis, target.size());
+        Bounds seen = bounds;
+        if (!look_along(passes, target, box, axis, until_cut, &outline, seen)) {
+            seen = bounds;
+            look_along(passes, target, box, axis, until_cut, nullptr, seen);
+        }
+        bounds = seen;
+        if (until_cut && bounds.touches) return bounds;
     }
     return bounds;
 }

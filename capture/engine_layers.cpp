@@ -23,13 +23,15 @@ constexpr int most_hole_rounds = 256;
 class AxisPeeler {
   public:
     AxisPeeler(const LayerTask& task, const PeelShader& shader, const OuterHits& hits)
-        : task(task), shader(shader), n(task.target.size()), ranges(hits.first.size()) {
+        : task(task), shader(shader), n(task.target.size()), ranges(hits.first.size()),
+          tiles(task.box, task.axis, n) {
         for (std::size_t p = 0; p < ranges.size(); ++p)
             ranges[p] = {hits.first[p], -1, has_room(hits.first[p], hits.last[p], n) ? hits.last[p] : closed};
         open = bounds_of(PixelRect::whole(n), n, [&](std::size_t p) { return is_open(p); });
         pass.box = task.box;
         pass.axis = task.axis;
         pass.side = Side::minus;
+        pass.open = &tiles;
     }
 
     AxisLayers run(const LayerSink& sink) {
@@ -94,6 +96,10 @@ class AxisPeeler {
     }
 
     void peel() {
+        tiles.close_all();
+        for_each_pixel(open, n, [&](std::size_t p) {
+            if (is_open(p)) tiles.open(p, std::max(ranges[p].before, ranges[p].passed), ranges[p].last);
+        });
         shader.upload(ranges, open);
         pass.kind = PassKind::peel;
         pass.depth = DepthRule::first;
@@ -111,6 +117,10 @@ class AxisPeeler {
 
     /// The fixed fragment stage at the depths that were peeled: colours, and which of them are no holes.
     long take_shown(ViewImage& image) {
+        tiles.close_all();
+        for_each_pixel(open, n, [&](std::size_t p) {
+            if (depth[p] < 1) tiles.open(p, depth[p], depth[p]);
+        });
         pass.kind = PassKind::colour;
         pass.depth = DepthRule::equal;
         task.passes.run(pass, task.target);
@@ -186,6 +196,7 @@ class AxisPeeler {
     std::vector<float> depth;
     std::vector<std::uint8_t> marks;
     PixelRect open, last_drawn;
+    OpenTiles tiles;
     Pass pass;
     int hole_rounds = 0;
     bool given_up = false, differs = false;

@@ -71,6 +71,7 @@ bool any_missed(const ViewImage& image, const PixelRect& part) {
 /// sample of it.
 void fill_missed(PassRunner& passes, const Target& target, Pass pass, NormalMethod method, ViewImage& image) {
     pass.depth = DepthRule::missed;
+    pass.open = nullptr;
     Pixels second;
     std::vector<float> depth;
     paint(passes, target, pass, method, second);

@@ -189,7 +189,7 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
         ++draw_count;
         const bool masked = stencil && pass.kind != PassKind::stencil;
         if (masked) stencil->begin_pass(pass.outermost ? std::optional(pass.side) : std::nullopt, pass.only);
-        draw(forced.table());
+        draw(forced.table(), sought(pass, learning));
         if (masked) stencil->end();
         own_program |= forced.state.saw_own_program;
         unblended = forced.state.saw_blending || forced.state.depth_clears > 1;
@@ -197,6 +197,18 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
     gl.RenderMode(GL_RENDER);
     gl.Finish();
     swallow_errors(gl);
+}
+
+/// What is drawn nearer by its offset lies at no depth of its own.
+Sought PassRunner::sought(const Pass& pass, bool learning) const {
+    Sought sought;
+    sought.eye_to_capture = eye_to_capture;
+    sought.notes_places = pass.outline != nullptr;
+    if (learning) return sought;
+    const bool shifts = pass.offsets && offset_levels.several();
+    if (!shifts) sought.open = pass.open, sought.outline = pass.outline;
+    if (pass.polygon_mode == GL_POINT && !shifts) sought.corners = &pass.box;
+    return sought;
 }
 
 void PassRunner::set_state(const Pass& pass, const Target& target) const {

@@ -42,6 +42,8 @@ struct Pass {
     GLenum polygon_mode = GL_FILL;
     double near = 0, far = 1;           ///< depths of the box between which the target's 0..1 lies
     std::optional<PixelRect> only;      ///< the pixels that are cleared and drawn; all where there is none
+    const OpenTiles* open = nullptr;    ///< where and how deep something may be found; null: everywhere
+    Outline* outline = nullptr;         ///< where only its reach is looked for
     std::optional<Side> viewer;         ///< for whom fronts are fronts, where that is not `side`
     bool culls = false;                 ///< the program's face culling holds
     bool offsets = true;                ///< coplanar surfaces are told apart (depth_offset.h)
@@ -66,6 +68,7 @@ class PassRunner {
     void find_masks(const Pass& pass, const Target& target);
     void find_masks_of(Side viewer, const Pass& pass, const Target& target);
     PassFacts facts(const Pass& pass, const Target& target, bool learning);
+    Sought sought(const Pass& pass, bool learning) const;
     glm::dmat4 projection(const Pass& pass) const;
     void set_state(const Pass& pass, const Target& target) const;
     void set_depth_rule(const Pass& pass) const;

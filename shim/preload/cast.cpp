@@ -193,6 +193,7 @@ class Cast {
     CastResult look_and_cast(std::vector<Candidate>& listed) {
         if (!draws_into_framebuffers()) return failure("this OpenGL has no framebuffer objects to draw into");
         for (const FramePart& part : parts) {
+            if (options.prepare_replay) record::prepare(*part.frame);
             siblings.enter(part);
             scenes.push_back(analyse(*part.frame, gl, options.view_angle));
         }
@@ -247,11 +248,13 @@ class Cast {
         wanted.transparent = transparent;
         wanted.stencil = stencil_plan.kept > 0 ? &stencil : nullptr;
         wanted.backdrops = options.keep_backdrops;
-        return [this, &candidate, wanted](const GlTable& table) {
+        const auto places = std::make_shared<std::vector<DrawPlaces>>(parts.size());
+        return [this, &candidate, wanted, places](const GlTable& table, const Sought& sought) {
             patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
                 if (candidate.in_part[part] >= 0)
-                    replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table);
+                    replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table, sought,
+                                 &(*places)[part]);
         };
     }
 
@@ -411,8 +414,8 @@ class Cast {
         const auto strokes = std::make_shared<const std::vector<Stroke>>(
             collect_strokes(gl, drawing(candidate, thin), engine));
         const double half_width = 0.75 * engine.box->size / engine.n;
-        return [=, solid = drawing(candidate, {})](const GlTable& table) {
-            solid(table);
+        return [=, solid = drawing(candidate, {})](const GlTable& table, const Sought& sought) {
+            solid(table, sought);
             draw_strokes(*strokes, half_width, engine.eye_to_capture, table);
         };
     }

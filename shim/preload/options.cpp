@@ -163,6 +163,11 @@ constexpr Variable variables[] = {
     {"GLCAST_LAYERS", "auto, slab, or a whole number from 1 to 256", parse_layers},
     {"GLCAST_SHADERS", "0 or 1",
      [](const std::string& t, Options& o) { return parse_switch(t, o.use_shaders); }},
+    {"GLCAST_REPLAY", "arrays or calls",
+     [](const std::string& t, Options& o) {
+         o.prepare_replay = t == "arrays";
+         return o.prepare_replay || t == "calls";
+     }},
     {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1, none beyond 1e30, and a millionth of that apart", parse_box},
     {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
      parse_frame_matrix},

@@ -68,6 +68,7 @@ struct Options {
     Mask mask; ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these
     std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
     double most_seconds = 0; ///< GLCAST_MAX_SECONDS: a cast that takes longer is given up; 0: no limit
+    bool prepare_replay = true; ///< GLCAST_REPLAY: calls: each is made again in each replay, as it was recorded
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
     std::string error;      ///< one line; not armed then

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <utility>
 
 #include "shim/preload/eye_space.h"
 #include "shim/preload/hidden_faces.h"
@@ -22,8 +23,13 @@ constexpr double decal_nudge = 1.0 / 1024;
 /// Lets through the draws of one group that are asked for.
 class GroupFilter final : public DrawGate {
   public:
-    GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what)
-        : DrawGate(gl), scene(of), group(index), wanted(what) {}
+    GroupFilter(const GlTable& gl, const Scene& of, int index, const Wanted& what, const Sought& sought_for,
+                DrawPlaces* all_places)
+        : DrawGate(gl), scene(of), group(index), wanted(what), sought(sought_for), places(all_places) {
+        // Passes that find marks of the stencil test look for all.
+        if (!sought.open && !sought.corners && !sought.outline && !sought.notes_places) places = nullptr;
+        if (places) places->begin(sought.eye_to_capture);
+    }
 
     bool blends(bool on) override {
         blending = on;
@@ -33,7 +39,9 @@ class GroupFilter final : public DrawGate {
         return wanted.transparent != Transparent::by_alpha;
     }
 
-    bool keep(GLenum, long) override {
+    bool keep(GLenum mode, long) override {
+        as_points = false;
+        parts.reset();
         if (next >= scene.draws.size()) return false;
         const std::size_t number = next++;
         const Draw& draw = scene.draws[number];
@@ -41,7 +49,7 @@ class GroupFilter final : public DrawGate {
         const bool skipped = (wanted.only && !(*wanted.only)[number]) ||
                              (wanted.transparent == Transparent::skip && blending);
         if (wanted.everything) return !skipped;
-        const bool is_wanted = !skipped && wants(draw);
+        const bool is_wanted = !skipped && wants(draw) && may_be_found(draw, mode);
         if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
         if (wanted.marks) inner.PassThrough(-1 - static_cast<GLfloat>(number));
         const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
@@ -55,6 +63,9 @@ class GroupFilter final : public DrawGate {
         eye_space.leave();
         if (wanted.stencil) wanted.stencil->end_draw();
     }
+    void finish() {
+        if (places) places->end();
+    }
     bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
     bool fixes_colour() const override { return hidden_faces.entered(); }
 
@@ -65,9 +76,53 @@ class GroupFilter final : public DrawGate {
         return wanted.solid && is_solid(draw, scene.groups[group], wanted.backdrops);
     }
 
+    /// Says, too, what is to be drawn of it, and how.
+    bool may_be_found(const Draw& draw, GLenum mode) {
+        const record::DrawShape* shape = places && has_faces(mode) ? record::shape_of_draw() : nullptr;
+        if (!shape) return true;
+        const DrawPlace* place = places->of(next - 1, [&] {
+            glm::dmat4 to_eye(1.0);
+            inner.GetDoublev(GL_MODELVIEW_MATRIX, glm::value_ptr(to_eye));
+            if (draw.eye_map >= 0) to_eye = scene.eye_maps[draw.eye_map].apply(to_eye);
+            return find_place(*shape, to_eye, sought.eye_to_capture);
+        });
+        if (!place) return true;
+        if (sought.open || can_be_left_out()) {
+            auto seen = parts_of(*place, [&](const Place& part) {
+                return sought.open ? sought.open->meet(part)
+                                   : !sought.outline->leave_out(part, places->around()->lo, places->around()->hi);
+            });
+            if (seen.empty()) return false;
+            if (place->parts.size() > 1) parts = std::move(seen);
+        }
+        as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) && points_are_the_same();
+        return true;
+    }
+
+    /// From an outline: where corners are drawn as points, these reach no farther than a pixel.
+    bool can_be_left_out() const {
+        if (!sought.outline || !places->around()) return false;
+        GLfloat size = 1, least = 0, attenuation[3] = {1, 0, 0};
+        inner.GetFloatv(GL_POINT_SIZE, &size);
+        inner.GetFloatv(GL_POINT_SIZE_MIN, &least);
+        inner.GetFloatv(GL_POINT_DISTANCE_ATTENUATION, attenuation);
+        return size <= 1 && least <= 1 && attenuation[0] == 1 && attenuation[1] == 0 && attenuation[2] == 0;
+    }
+
+    /// As GL_POINTS, the vertices of polygons are neither clipped nor tested otherwise than as corners.
+    bool points_are_the_same() const {
+        GLint planes = 6;
+        inner.GetIntegerv(GL_MAX_CLIP_PLANES, &planes);
+        for (GLint i = 0; i < planes; ++i)
+            if (inner.IsEnabled(GL_CLIP_PLANE0 + static_cast<GLenum>(i))) return false;
+        return !inner.IsEnabled(GL_ALPHA_TEST);
+    }
+
     const Scene& scene;
     const int group;
     const Wanted wanted;
+    const Sought sought;
+    DrawPlaces* places;
     EyeSpace eye_space{inner};
     HiddenFaces hidden_faces{inner};
     std::size_t next = 0;
@@ -129,9 +184,10 @@ long cutting_draws(const std::vector<Scene>& scenes, const Group& group) {
 }
 
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
-                  const GlTable& gl) {
-    GroupFilter filter(gl, scene, group, wanted);
+                  const GlTable& gl, const Sought& sought, DrawPlaces* places) {
+    GroupFilter filter(gl, scene, group, wanted, sought, places);
     record::replay(frame, gated_table(filter));
+    filter.finish();
 }
 
 std::string describe(const Group& group) {

@@ -13,7 +13,9 @@
 
 #include "capture/gl/gl_table.h"
 #include "capture/program_stencil.h"
+#include "capture/sought.h"
 #include "capture/view.h"
+#include "shim/preload/draw_places.h"
 #include "shim/preload/options.h"
 #include "shim/preload/sight.h"
 #include "shim/preload/stencil_events.h"
@@ -150,9 +152,10 @@ struct Sides {
 };
 Sides sides_of(const Scene& scene, int group);
 
-/// Replays the frame, but of its draws only some of one group.
+/// Replays the frame, but of its draws only some of one group, and of these only what may be sought. `places` is of this
+/// frame; null: all is drawn.
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
-                  const GlTable& gl);
+                  const GlTable& gl, const Sought& sought = {}, DrawPlaces* places = nullptr);
 
 /// "3360 triangles in 12 draws, perspective, viewport 0 0 800 600".
 std::string describe(const Group& group);

@@ -131,6 +131,49 @@ void APIENTRY end() {
     gate->drawn();
 }
 
+/// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first element,
+/// `many(mode, firsts, counts, number)` several such.
+template <class One, class Many> void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
+    if (!gate->keep(mode, primitive_count(mode, count))) return;
+    const GLenum drawn = gate->as_points ? GL_POINTS : mode;
+    if (!gate->parts) {
+        one(drawn, 0, count);
+    } else if (gate->parts->size() == 1) {
+        one(drawn, static_cast<GLint>(gate->parts->front().first), static_cast<GLsizei>(gate->parts->front().count));
+    } else {
+        std::vector<GLint> firsts;
+        std::vector<GLsizei> counts;
+        for (const auto& part : *gate->parts)
+            firsts.push_back(static_cast<GLint>(part.first)), counts.push_back(static_cast<GLsizei>(part.count));
+        many(drawn, firsts, counts);
+    }
+    gate->drawn();
+}
+
+void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
+    const GlTable& gl = gate->inner;
+    draw_parts(
+        mode, count, [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawArrays(drawn, first + at, number); },
+        [&](GLenum drawn, std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
+            for (GLint& at : firsts) at += first;
+            gl.MultiDrawArrays(drawn, firsts.data(), counts.data(), static_cast<GLsizei>(counts.size()));
+        });
+}
+
+void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
+    const GlTable& gl = gate->inner;
+    const GLint bytes = type == GL_UNSIGNED_BYTE ? 1 : type == GL_UNSIGNED_SHORT ? 2 : 4;
+    const auto from = [&](GLint at) -> const void* {
+        return static_cast<const std::byte*>(indices) + std::ptrdiff_t(at) * bytes;
+    };
+    draw_parts(
+        mode, count,
+        [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawElements(drawn, number, type, from(at)); },
+        [&](GLenum drawn, const std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
+            for (std::size_t i = 0; i < counts.size(); ++i) gl.DrawElements(drawn, counts[i], type, from(firsts[i]));
+        });
+}
+
 /// Mesh modes as those of glBegin.
 GLenum drawn_as(GLenum mesh_mode) {
     return mesh_mode == GL_FILL ? GL_TRIANGLES : mesh_mode == GL_LINE ? GL_LINES : GL_POINTS;
@@ -191,9 +234,7 @@ void APIENTRY push_matrix() {
 
 // name, argument with the number of vertices, argument with the number of instances
 #define GLCAST_PLAIN_DRAWS(X)                                                                                \
-    X(DrawArrays, 2, -1)                                                                                     \
     X(DrawArraysEXT, 2, -1)                                                                                  \
-    X(DrawElements, 1, -1)                                                                                   \
     X(DrawRangeElements, 3, -1)                                                                              \
     X(DrawRangeElementsEXT, 3, -1)                                                                           \
     X(DrawElementsBaseVertex, 1, -1)                                                                         \
@@ -286,6 +327,8 @@ void install_draws(GlTable& table) {
 #undef GLCAST_INSTALL
     table.Begin = begin;
     table.End = end;
+    table.DrawArrays = draw_arrays;
+    table.DrawElements = draw_elements;
     table.EvalMesh1 = eval_mesh_1;
     table.EvalMesh2 = eval_mesh_2;
 }

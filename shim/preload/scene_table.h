@@ -1,9 +1,11 @@
 // A table that numbers the draws which pass through it, and lets through those that its owner keeps.
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "capture/gl/gl_table.h"
+#include "shim/record/record.h"
 
 namespace glcast::preload {
 
@@ -42,6 +44,10 @@ class DrawGate {
     virtual bool blending_restored() { return false; }
 
     const GlTable& inner;
+
+    // Of the draw that was kept, where it is glDrawArrays or glDrawElements.
+    bool as_points = false;                         ///< its vertices are drawn as GL_POINTS
+    std::optional<std::vector<record::DrawShape::Part>> parts; ///< what is drawn of it; nothing: all
 
     // Of the glBegin that is open; the table's functions keep these.
     bool swallowing = false;

@@ -56,6 +56,8 @@ struct TextureCopy {
     Charge at_replay; ///< what the texture takes in the driver that replays make of it
 };
 
+struct Prepared; // prepare.h
+
 struct Frame {
     int version = 0; ///< of the program's context, 10 * major + minor
     bool has_multitexture = false;
@@ -70,6 +72,7 @@ struct Frame {
     std::set<GLenum> filled_defaults; ///< targets whose texture named 0 gets an image in the frame
     mutable std::map<GLenum, GLuint> default_textures; ///< target -> what replays bind for its texture named 0
     std::map<std::string, long> not_understood;
+    mutable std::shared_ptr<Prepared> prepared; ///< by prepare(), before the first replay; null: played as recorded
 };
 
 /// What a context offers, read once.

@@ -2,6 +2,7 @@
 #include "shim/record/arrays.h"
 #include "shim/record/draw_packet.h"
 #include "shim/record/packets.h"
+#include "shim/record/prepare.h"
 
 namespace glcast::record {
 
@@ -58,43 +59,31 @@ namespace glcast::record::custom {
 
 void play_draw(Player& player, const Packet& packet) {
     if (player.skips_draws()) return;
-    Reader reader(packet);
-    const auto header = reader.get<DrawHeader>();
-    Reader arrays = reader;
-    reader.take(header.arrays * sizeof(DrawArray));
-    Reader segments = reader;
-    reader.take(header.segments * sizeof(DrawSegment));
-    const std::byte* data = reader.align(8).position();
-    const auto start = [&](std::uint32_t blob) {
-        return blob == in_packet ? data : player.frame.blobs[blob]->data();
+    const DrawReader draw(player.frame, packet);
+    const DrawHeader& header = draw.header;
+    const auto each_array = [&](auto&& visit) {
+        Reader arrays({packet.op, draw.arrays, header.arrays * sizeof(DrawArray)});
+        for (std::uint32_t i = 0; i < header.arrays; ++i) visit(arrays.get<DrawArray>());
     };
-
-    Reader on = arrays, off = arrays;
-    for (std::uint32_t i = 0; i < header.arrays; ++i) {
-        const auto array = on.get<DrawArray>();
+    each_array([&](const DrawArray& array) {
         switch_array(player, array, true);
-        // Element 0 may lie before what is there: the draw begins with a later one. Hence no pointer
-        // arithmetic.
-        const auto address =
-            reinterpret_cast<std::uintptr_t>(start(array.blob)) + std::uintptr_t(array.element_0);
-        set_array(player.gl, array, reinterpret_cast<const void*>(address));
-    }
-    const std::byte* indices = start(header.index_blob) + header.index_offset;
-    const std::size_t bytes = header.index_type == GL_UNSIGNED_BYTE    ? 1
-                              : header.index_type == GL_UNSIGNED_SHORT ? 2
-                                                                       : 4;
-    for (std::uint32_t instance = 0; instance < header.instances; ++instance) {
-        Reader each = segments;
-        for (std::uint32_t i = 0; i < header.segments; ++i) {
-            const auto segment = each.get<DrawSegment>();
-            if (!header.index_type)
-                player.gl.DrawArrays(header.mode, GLint(segment.first), GLsizei(segment.count));
-            else
-                player.gl.DrawElements(header.mode, GLsizei(segment.count), header.index_type,
-                                       indices + segment.first * bytes);
+        set_array(player.gl, array, reinterpret_cast<const void*>(draw.element_0(array)));
+    });
+    {
+        const ShownDraw shown(player.frame, packet);
+        for (std::uint32_t instance = 0; instance < header.instances; ++instance) {
+            Reader segments({packet.op, draw.segments, header.segments * sizeof(DrawSegment)});
+            for (std::uint32_t i = 0; i < header.segments; ++i) {
+                const auto segment = segments.get<DrawSegment>();
+                if (!header.index_type)
+                    player.gl.DrawArrays(header.mode, GLint(segment.first), GLsizei(segment.count));
+                else
+                    player.gl.DrawElements(header.mode, GLsizei(segment.count), header.index_type,
+                                           draw.indices() + segment.first * draw.index_bytes());
+            }
         }
     }
-    for (std::uint32_t i = 0; i < header.arrays; ++i) switch_array(player, off.get<DrawArray>(), false);
+    each_array([&](const DrawArray& array) { switch_array(player, array, false); });
 }
 
 } // namespace glcast::record::custom

@@ -86,12 +86,14 @@ std::shared_ptr<const Frame> end_frame(Context& context, std::string* why) {
         return nullptr;
     }
     name_counts(*recording);
+    recording->frame->prepared = nullptr; // by a look at a part of it (frame_so_far)
     return recording->frame;
 }
 
 std::shared_ptr<const Frame> frame_so_far(Context& context) {
     if (!context.recording || !context.recording->given_up.empty()) return nullptr;
     name_counts(*context.recording);
+    context.recording->frame->prepared = nullptr; // for what was recorded then
     return context.recording->frame;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shim/record/prepare.h"
 #include "shim/record/snapshot.h"
 #include "shim/record/state.h"
 
@@ -19,9 +20,11 @@ void Player::run(const std::function<void()>& before_calls) {
 }
 
 void Player::play(const Stream& stream) {
-    stream.for_each([this](const Packet& packet) {
-        if (const PlayFunction function = play_functions[packet.op]) function(*this, packet);
-    });
+    const auto play_one = [this](const Packet& packet) { play(packet); };
+    if (const auto* runs = frame.prepared ? frame.prepared->runs_of(stream) : nullptr)
+        for (const Stream::Run& run : *runs) Stream::for_each(run, play_one);
+    else
+        stream.for_each(play_one);
 }
 
 const Stream* Player::find_list(GLuint name) const {

@@ -29,6 +29,9 @@ class Player {
         : gl(table), frame(recorded), defaults(recorded, table), textures(recorded, table, defaults) {}
     void run(const std::function<void()>& before_calls);
     void play(const Stream& stream);
+    void play(const Packet& packet) {
+        if (const PlayFunction function = play_functions[packet.op]) function(*this, packet);
+    }
     void call_list(GLuint name);
     void set_list(GLuint name, const Stream* list) { changed_lists[name] = list; }
 

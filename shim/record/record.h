@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "capture/gl/gl_table.h"
 
@@ -80,6 +81,29 @@ void delete_copies(const Frame& frame, const GlTable& gl);
 /// of textures in its bindings and on its stack of attributes. These would come back at the next replay, to which
 /// the program may have changed them, and contexts share what comes back: parameters of textures.
 void let_go(const Frame& frame, const GlTable& gl);
+
+/// A draw as it is played, with glDrawArrays or glDrawElements.
+struct DrawShape {
+    GLenum mode;
+    bool is_known; ///< where its vertices lie, whose w is 1
+    bool is_whole; ///< no vertex is left over that makes no primitive
+    /// Elements (vertices or indices), counted from the draw's first; whole primitives that may be drawn for themselves, in
+    /// order. Of strips, the last two are those that the next part begins with.
+    struct Part {
+        std::uint32_t first, count;
+    };
+    std::vector<Part> parts; ///< one, where it is drawn as a whole
+};
+
+/// Before the first replay: what is drawn between glBegin and glEnd becomes arrays, where the same comes of that to the
+/// bit, so that replays need not make each call again. Memory counts as a recording; what does not fit stays as it is.
+void prepare(const Frame& frame);
+
+/// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn. Null:
+/// nothing is known of it.
+const DrawShape* shape_of_draw();
+/// x, y and z of the vertices of a part of it, in the program's own coordinates.
+void read_positions(const DrawShape::Part& part, std::vector<float>& xyz);
 
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix

@@ -39,15 +39,51 @@ class Stream {
     bool empty() const { return chunks.empty(); }
 
     template <class Visitor> void for_each(Visitor&& visit) const {
-        for (const Chunk& chunk : chunks) {
-            const std::byte* at = chunk.block.data();
-            const std::byte* const end = at + chunk.used;
-            while (at != end) {
-                const Packet packet = read_header(at);
-                visit(packet);
-                at = packet.body + packet.bytes;
-            }
+        for (const Chunk& chunk : chunks) for_each(Run{chunk.block.data(), chunk.block.data() + chunk.used}, visit);
+    }
+
+    /// Whole packets one behind the other.
+    struct Run {
+        const std::byte *begin, *end;
+    };
+    template <class Visitor> static void for_each(const Run& run, Visitor&& visit) {
+        for (const std::byte* at = run.begin; at != run.end;) {
+            const Packet packet = read_header(at);
+            visit(packet);
+            at = packet.body + packet.bytes;
         }
+    }
+    /// From packet to packet over all of a stream. Appending ends it.
+    class Cursor {
+      public:
+        explicit Cursor(const Stream& of) : stream(&of) { enter(); }
+        bool at_end() const { return chunk == stream->chunks.size(); }
+        Packet packet() const { return read_header(at); }
+        Run run() const { return {at, packet().body + packet().bytes}; }
+        void step() {
+            at = run().end;
+            if (at != end) return;
+            ++chunk;
+            enter();
+        }
+
+      private:
+        void enter() {
+            while (!at_end() && stream->chunks[chunk].used == 0) ++chunk;
+            if (at_end()) return;
+            at = stream->chunks[chunk].block.data();
+            end = at + stream->chunks[chunk].used;
+        }
+        const Stream* stream;
+        std::size_t chunk = 0;
+        const std::byte *at = nullptr, *end = nullptr;
+    };
+    /// The packet that was appended last, whose body has so many bytes.
+    Run last_packet(std::size_t bytes) const {
+        const Chunk& chunk = chunks.back();
+        const std::size_t words = (bytes + 3) / 4, header = words >= long_packet ? 8 : 4;
+        const std::byte* end = chunk.block.data() + chunk.used;
+        return {end - words * 4 - header, end};
     }
 
     /// How a list leaves Begin/End: glBegin in one list and glEnd in another is legal.
