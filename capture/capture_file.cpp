@@ -25,10 +25,10 @@ const exr::Channel channel_table[] = {{"A", true},    {"B", true},    {"G", true
 constexpr int channel_count = std::size(channel_table);
 
 // Of captures of both sides: T is what a viewer on the other side sees.
-const exr::Channel both_channel_table[] = {{"A", true},    {"B", true},     {"G", true},      {"N.V", true},
-                                           {"N.X", false}, {"N.Y", false},  {"N.Z", false},   {"R", true},
-                                           {"T.B", true},  {"T.G", true},   {"T.N.V", true},  {"T.N.X", false},
-                                           {"T.N.Y", false}, {"T.N.Z", false}, {"T.R", true}, {"Z", false}};
+const exr::Channel both_channel_table[] = {
+    {"A", true},      {"B", true},      {"G", true},   {"N.V", true}, {"N.X", false},  {"N.Y", false},
+    {"N.Z", false},   {"R", true},      {"T.B", true}, {"T.G", true}, {"T.N.V", true}, {"T.N.X", false},
+    {"T.N.Y", false}, {"T.N.Z", false}, {"T.R", true}, {"Z", false}};
 constexpr int both_channel_count = std::size(both_channel_table);
 
 std::span<const exr::Channel> channels_of(const CaptureInfo& info) {
@@ -143,8 +143,8 @@ float tame(float value, float lo, float hi) { return std::isnan(value) ? 0.0f : 
 
 bool is_finite(const glm::vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// What channels T of a pixel hold, into `planes` from the first of them on. Alike from both sides where the image says
-/// nothing.
+/// What channels T of a pixel hold, into `planes` from the first of them on. Alike from both sides where the
+/// image says nothing.
 void put_other_side(const ViewImage& image, std::size_t from, std::size_t to, bool covered,
                     std::vector<std::vector<float>>& planes) {
     const bool is_known = !image.other_colour.empty() && !image.other_normal.empty();

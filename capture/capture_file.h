@@ -22,17 +22,18 @@ struct CaptureInfo {
     glm::dmat4 eye_to_capture{1.0};
     /// Reference views (capture/reference_views.h): the frame of their capture to this one. Else none.
     std::optional<glm::dmat4> from_capture;
-    /// Where the program's own eye is, capture frame. None where all its rays are parallel, in reference views and in older captures.
+    /// Where the program's own eye is, capture frame. None where all its rays are parallel, in reference
+    /// views and in older captures.
     std::optional<glm::dvec3> eye;
-    /// Places in free space, capture frame, that the eye sees through faces which the program culls: what may be
-    /// rooms without their near walls. At most `most_seen_places`.
+    /// Places in free space, capture frame, that the eye sees through faces which the program culls: what may
+    /// be rooms without their near walls. At most `most_seen_places`.
     std::vector<glm::dvec3> seen_places;
     std::string program;  ///< file name of the host program
     long frame = 0;       ///< number of the frame, from 1
     std::string renderer; ///< GL_RENDERER
     std::string normals;  ///< "signed" or "six"
     std::string glcast_version;
-    bool both_sides = false; ///< hits are shown as either side sees them
+    bool both_sides = false;                    ///< hits are shown as either side sees them
     std::map<std::string, long> not_understood; ///< entry point or reason -> how often
 
     /// Known when all images are made: CaptureWriter::finish() sets them.

@@ -89,9 +89,10 @@ class Capture {
         for (Axis axis : {Axis::x, Axis::y, Axis::z})
             if (!capture_axis(target, axis)) return;
         if (covered == 0)
-            report.error = options.box ? "nothing solid was drawn inside the box that was asked for, from " +
-                                             corner(report.box.lo) + " to " + corner(report.box.lo + report.box.size)
-                                       : "nothing solid was drawn";
+            report.error = options.box
+                               ? "nothing solid was drawn inside the box that was asked for, from " +
+                                     corner(report.box.lo) + " to " + corner(report.box.lo + report.box.size)
+                               : "nothing solid was drawn";
         if (options.most_layers > 1) judge_layers();
     }
 
@@ -127,7 +128,13 @@ class Capture {
 
     AxisLayers find_layers(const Target& target, Axis axis, const OuterHits& hits) {
         if (room_between(hits, options.n).empty()) return {};
-        const LayerTask task{passes, target, report.box, axis, options.normals, options.most_layers, {options.both_sides, options.culls}};
+        const LayerTask task{passes,
+                             target,
+                             report.box,
+                             axis,
+                             options.normals,
+                             options.most_layers,
+                             {options.both_sides, options.culls}};
         const auto layer_sink = [&](ViewImage&& image) {
             count(image);
             return send(std::move(image));

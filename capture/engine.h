@@ -26,8 +26,7 @@ class DrawFunction {
     DrawFunction() = default;
     /// Of a function that always draws everything, or of one that is also told what the pass looks for.
     template <class Function>
-        requires(!std::is_same_v<std::remove_cvref_t<Function>, DrawFunction>)
-    DrawFunction(Function function) {
+    requires(!std::is_same_v<std::remove_cvref_t<Function>, DrawFunction>) DrawFunction(Function function) {
         if constexpr (std::is_invocable_v<Function&, const GlTable&, const Sought&>)
             draw = std::move(function);
         else
@@ -60,11 +59,12 @@ struct EngineOptions {
     LayerMethod layer_method = LayerMethod::peel;
     bool use_shaders = true; ///< false: as if this OpenGL had none
 
-    /// Hits are shown as either side sees them (ViewImage::other_colour); `culls`: without the faces that the program
-    /// culls for a viewer on that side, where others are there too.
+    /// Hits are shown as either side sees them (ViewImage::other_colour); `culls`: without the faces that the
+    /// program culls for a viewer on that side, where others are there too.
     bool both_sides = false, culls = false;
 
-    /// Where draws are kept to places by the program's stencil test: what the draw function tells of each draw.
+    /// Where draws are kept to places by the program's stencil test: what the draw function tells of each
+    /// draw.
     ProgramStencil* stencil = nullptr;
 };
 
@@ -96,7 +96,8 @@ EngineReport run_capture(const GlTable& gl, const DrawFunction& draw, const Engi
 /// Find the smallest cube (2 samples of margin at n) around all that is drawn; nothing when nothing is.
 std::optional<Box> find_box(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options);
 
-/// Whether the current context can draw into a framebuffer object of any format: without, no capture can be made.
+/// Whether the current context can draw into a framebuffer object of any format: without, no capture can be
+/// made.
 bool can_make_target(const GlTable& gl);
 
 } // namespace glcast

@@ -128,7 +128,8 @@ OffsetClamp bounded_offset(const GlTable& gl) {
 
 PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options)
     : gl(gl), draw(draw), eye_to_capture(options.eye_to_capture),
-      mirrored_projection(options.mirrored_projection), stencil(options.stencil), offset_clamp(bounded_offset(gl)) {
+      mirrored_projection(options.mirrored_projection), stencil(options.stencil),
+      offset_clamp(bounded_offset(gl)) {
     if (stencil) stencil->forget();
 }
 
@@ -139,8 +140,8 @@ void PassRunner::run(const Pass& pass, const Target& target) {
     if (!std::exchange(offsets_known, true) && offset_levels.several()) draw_once(pass, target, false);
 }
 
-/// Of the view of the pass, where they are not known; the target's images are lost then. The first pass of a view
-/// needs none.
+/// Of the view of the pass, where they are not known; the target's images are lost then. The first pass of a
+/// view needs none.
 void PassRunner::find_masks(const Pass& pass, const Target& target) {
     stencil->look({pass.box, pass.axis, target.size()});
     for (const Side viewer : {Side::minus, Side::plus})

@@ -23,9 +23,8 @@ ViewImage see(PassRunner& passes, const Target& target, Pass pass, Side viewer, 
     seen.view = {pass.axis, Side::minus, 1}; // no normal but at this depth
     seen.n = hits.n;
     read_blended(target, seen.colour, part);
-    for_each_pixel(part, seen.n, [&](std::size_t p) {
-        seen.colour[p].a = hits.covered(p) && marks[p] != 0 ? 1.0f : 0.0f;
-    });
+    for_each_pixel(part, seen.n,
+                   [&](std::size_t p) { seen.colour[p].a = hits.covered(p) && marks[p] != 0 ? 1.0f : 0.0f; });
     seen.normal.assign(seen.colour.size(), glm::vec4(0));
     capture_normals(passes, target, pass, normals, seen);
     return seen;

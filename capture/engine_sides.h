@@ -1,5 +1,5 @@
-// What the hits of an image look like from both sides, in frames that tell sides apart: by two-sided lighting with two
-// materials, or by drawing fronts and backs in two culled passes.
+// What the hits of an image look like from both sides, in frames that tell sides apart: by two-sided lighting
+// with two materials, or by drawing fronts and backs in two culled passes.
 #pragma once
 #include <optional>
 
@@ -10,7 +10,8 @@ namespace glcast {
 /// How much more than one side is looked at.
 struct SidesTask {
     bool both = false;  ///< the other side too
-    bool culls = false; ///< faces that the program culls for a viewer have no part in what he sees, if others are there
+    bool culls = false; ///< faces that the program culls for a viewer have no part in what he sees, if others
+                        ///< are there
 };
 
 /// Colours and normals of the same hits; covered where something was drawn.

@@ -159,7 +159,9 @@ void APIENTRY polygon_offset(GLfloat factor, GLfloat units) {
     state().apply_fragments();
 }
 /// Its bias is depth, 0..1.
-void APIENTRY polygon_offset_ext(GLfloat factor, GLfloat bias) { polygon_offset(factor, bias * units_of_depth); }
+void APIENTRY polygon_offset_ext(GLfloat factor, GLfloat bias) {
+    polygon_offset(factor, bias * units_of_depth);
+}
 void APIENTRY polygon_offset_clamp(GLfloat factor, GLfloat units, GLfloat) { polygon_offset(factor, units); }
 void APIENTRY depth_range(GLdouble near, GLdouble far) {
     program().offset.near = near, program().offset.far = far;

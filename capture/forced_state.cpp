@@ -105,13 +105,15 @@ bool ForcedState::shows() const {
 
 namespace {
 
-/// Of the program's alpha test and that of its blending the stricter, where one test can tell; else the program's.
+/// Of the program's alpha test and that of its blending the stricter, where one test can tell; else the
+/// program's.
 void set_alpha_test(const GlTable& gl, const ForcedState::Values& program, Solidity solid) {
     const bool high = solid == Solidity::by_high_alpha, low = solid == Solidity::by_low_alpha;
     GLenum function = high ? GL_GEQUAL : GL_LEQUAL;
     GLclampf reference = 0.5f;
     const GLenum own = program.alpha_function;
-    const bool own_is_high = own == GL_GREATER || own == GL_GEQUAL, own_is_low = own == GL_LESS || own == GL_LEQUAL;
+    const bool own_is_high = own == GL_GREATER || own == GL_GEQUAL,
+               own_is_low = own == GL_LESS || own == GL_LEQUAL;
     const bool own_is_stricter = (high && own_is_high && program.alpha_reference >= reference) ||
                                  (low && own_is_low && program.alpha_reference <= reference);
     const bool is_other = !(high && own_is_high) && !(low && own_is_low);
@@ -164,7 +166,8 @@ void ForcedState::order_by_stencil() const {
         counts = writes_depth;
     else // a normal: of the first that has one
         over = false, counts = program.fragments.lighting;
-    apply_stencil({.tests = true, .uncounted_only = !over, .shown = counts ? GLenum(GL_INCR) : GLenum(GL_KEEP)});
+    apply_stencil(
+        {.tests = true, .uncounted_only = !over, .shown = counts ? GLenum(GL_INCR) : GLenum(GL_KEEP)});
 }
 
 void ForcedState::apply_order() {

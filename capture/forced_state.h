@@ -10,10 +10,10 @@
 namespace glcast {
 
 enum class PassKind {
-    colour, ///< depth, and the colour of what stays there; also what the box is found with
-    blend,  ///< what blends with the colours that are there (coincident.h)
-    normal, ///< normals as colours
-    peel,   ///< depth alone, by a fragment shader of ours (engine_peel.h)
+    colour,  ///< depth, and the colour of what stays there; also what the box is found with
+    blend,   ///< what blends with the colours that are there (coincident.h)
+    normal,  ///< normals as colours
+    peel,    ///< depth alone, by a fragment shader of ours (engine_peel.h)
     stencil, ///< the program's own stencil buffer, and nothing else (program_stencil.h)
 };
 
@@ -71,8 +71,8 @@ class ForcedState {
     void apply_colour_material() const; ///< colour pass only
     void apply_lighting() const;        ///< normal pass only: white when lit, black when not
     void apply();                       ///< all of them
-    /// A draw begins or ends that is cast only where the program's stencil test passes. `masked`: the highest bit
-    /// of the stencil buffer tells where; else it passes everywhere.
+    /// A draw begins or ends that is cast only where the program's stencil test passes. `masked`: the highest
+    /// bit of the stencil buffer tells where; else it passes everywhere.
     void keep_to_mask(bool on, bool masked);
     /// The program clears: what that means where depths are equal.
     void cleared(GLbitfield buffers);

@@ -65,8 +65,16 @@ template <auto... Members> void keep(GlTable& table) {
     ((table.*Members = ForcedTable::current().real.*Members), ...);
 }
 
-/// Peel and stencil passes force what colour passes do, and more or less. The first pass of all learns what there is.
-enum Passes : unsigned { in_colour = 1, in_normal = 2, in_both = 3, in_peel = 4, in_learning = 8, in_stencil = 16 };
+/// Peel and stencil passes force what colour passes do, and more or less. The first pass of all learns what
+/// there is.
+enum Passes : unsigned {
+    in_colour = 1,
+    in_normal = 2,
+    in_both = 3,
+    in_peel = 4,
+    in_learning = 8,
+    in_stencil = 16
+};
 
 struct Rule {
     Passes passes;
@@ -259,8 +267,9 @@ constexpr Rule rules[] = {
 
     // The program's own stencil test, and nothing to be seen.
     {in_stencil,
-     keep<&G::StencilFunc, &G::StencilFuncSeparate, &G::StencilFuncSeparateATI, &G::StencilOp, &G::StencilOpSeparate,
-          &G::StencilOpSeparateATI, &G::StencilMask, &G::StencilMaskSeparate, &G::ActiveStencilFaceEXT>,
+     keep<&G::StencilFunc, &G::StencilFuncSeparate, &G::StencilFuncSeparateATI, &G::StencilOp,
+          &G::StencilOpSeparate, &G::StencilOpSeparateATI, &G::StencilMask, &G::StencilMaskSeparate,
+          &G::ActiveStencilFaceEXT>,
      "it is worked out in this view"},
 
     // Which offsets faces are drawn with.
@@ -296,7 +305,7 @@ constexpr Rule rules[] = {
 
 ForcedTable::ForcedTable(const GlTable& real, const PassFacts& pass, bool mirrored)
     : real(real), kind(pass.kind), mirrored(mirrored), state(real, pass), forced(real) {
-    unsigned passes = kind == PassKind::normal ? in_normal
+    unsigned passes = kind == PassKind::normal    ? in_normal
                       : kind == PassKind::peel    ? in_colour | in_peel
                       : kind == PassKind::stencil ? in_colour | in_stencil
                                                   : in_colour;

@@ -92,7 +92,8 @@ bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dve
 bool Outline::is_enclosed(const glm::dvec3& lo, const glm::dvec3& hi) const {
     const double pixel = box.size / m;
     for (int i = 0; i < 3; ++i) {
-        const double margin = i == axes.depth ? 4 * rounding * box.size : 2 * snap * pixel; // within the same pixels
+        const double margin =
+            i == axes.depth ? 4 * rounding * box.size : 2 * snap * pixel; // within the same pixels
         if (!(left_lo[i] > lo[i] + margin && left_hi[i] < hi[i] - margin)) return false;
     }
     return true;

@@ -16,8 +16,8 @@ struct ViewImage {
         depth; ///< 0..1 through the box along +axis; `background(side)` where nothing was drawn
     std::vector<glm::vec4> colour; ///< as drawn, 0..1, not converted; a = 1 where something was drawn, else 0
     std::vector<glm::vec4> normal; ///< capture frame, as drawn (any length); w = 1 where there is one, else 0
-    /// The same hits as a viewer on the other side would see them, were nothing in between; only in captures of both
-    /// sides (CaptureInfo::both_sides), else empty: they look alike from there.
+    /// The same hits as a viewer on the other side would see them, were nothing in between; only in captures
+    /// of both sides (CaptureInfo::both_sides), else empty: they look alike from there.
     std::vector<glm::vec4> other_colour, other_normal;
 
     /// Depth of a pixel that nothing covers: 1 seen from minus, 0 seen from plus.
@@ -28,8 +28,13 @@ struct ViewImage {
 /// A view that shows nothing yet.
 inline ViewImage blank_image(const View& view, int n) {
     const std::size_t pixels = std::size_t(n) * n;
-    return {view, n, std::vector<float>(pixels, ViewImage::background(view.side)),
-            std::vector<glm::vec4>(pixels, glm::vec4(0)), std::vector<glm::vec4>(pixels, glm::vec4(0)), {}, {}};
+    return {view,
+            n,
+            std::vector<float>(pixels, ViewImage::background(view.side)),
+            std::vector<glm::vec4>(pixels, glm::vec4(0)),
+            std::vector<glm::vec4>(pixels, glm::vec4(0)),
+            {},
+            {}};
 }
 
 } // namespace glcast

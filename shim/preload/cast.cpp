@@ -37,9 +37,9 @@ constexpr double far_ratios[] = {100, 3'000, 1e6};
 
 /// Contexts of ours current with the program's drawables, and the program's own again at the end.
 ///
-/// A sibling that has drawn does not outlive its frame: a driver may let an object that has lost its name meanwhile
-/// point at a context that is gone (Mesa's sampler views). One that has not is kept for the next frame, if it holds
-/// nothing of the program's.
+/// A sibling that has drawn does not outlive its frame: a driver may let an object that has lost its name
+/// meanwhile point at a context that is gone (Mesa's sampler views). One that has not is kept for the next
+/// frame, if it holds nothing of the program's.
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
@@ -140,11 +140,10 @@ CastResult write_capture(const GlTable& gl, const DrawFunction& draw, const Capt
     const auto start = std::chrono::steady_clock::now();
     CaptureWriter writer(path, info, most_parts);
     if (!writer.error().empty()) return failure(writer.error());
-    const EngineReport report =
-        run_capture(gl, draw, engine, [&](ViewImage&& image) {
-            patience.image_is_done(image.view);
-            return writer.add(std::move(image));
-        });
+    const EngineReport report = run_capture(gl, draw, engine, [&](ViewImage&& image) {
+        patience.image_is_done(image.view);
+        return writer.add(std::move(image));
+    });
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
     if (!writer.finish(report.layers, report.layer_method)) return failure(writer.error());
@@ -253,8 +252,8 @@ class Cast {
             patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
                 if (candidate.in_part[part] >= 0)
-                    replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table, sought,
-                                 &(*places)[part]);
+                    replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table,
+                                 sought, &(*places)[part]);
         };
     }
 
@@ -295,9 +294,7 @@ class Cast {
         return text + (count > most ? "; ... (--list shows all)" : "");
     }
 
-    CastResult no_such_group() const {
-        return failure(groups_instead());
-    }
+    CastResult no_such_group() const { return failure(groups_instead()); }
 
     CastResult list_groups(std::vector<Candidate>& listed) {
         for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -389,7 +386,8 @@ class Cast {
         });
         // A box that is asked for holds what is wanted.
         const bool looks = !options.box && may_have_backdrops(of, engine, candidate.picture.coverage);
-        const LeftOut left = leave_out(of, gl, engine, {.backdrops = looks, .outlines = seen.any || both_turns});
+        const LeftOut left =
+            leave_out(of, gl, engine, {.backdrops = looks, .outlines = seen.any || both_turns});
         if (!left.lines.empty()) say_once("%s", left.lines.c_str());
         if (left.draws == 0) return seen.places;
         if (!options.box) engine.box = find_scene_box(gl, as_drawn, candidate.group, engine);
@@ -399,7 +397,8 @@ class Cast {
     /// It is all see-through, or what is solid of it is nothing.
     bool shows_when_kept(const Candidate& candidate, const EngineOptions& engine) {
         if (options.transparent != Transparent::by_alpha) return false;
-        return find_scene_box(gl, drawing(candidate, {}, Transparent::keep), candidate.group, engine).has_value();
+        return find_scene_box(gl, drawing(candidate, {}, Transparent::keep), candidate.group, engine)
+            .has_value();
     }
 
     /// What is cast, through a capture frame.
@@ -429,36 +428,43 @@ class Cast {
                     not_understood[what] += times;
         if (const long cuts = cutting_draws(scenes, candidate.group)) {
             not_understood["a draw that cuts solids in the depth buffer: they are cast uncut"] = cuts;
-            say_once("solids that the program cuts out of one another as it draws them (OpenCSG) are cast uncut: let it "
+            say_once("solids that the program cuts out of one another as it draws them (OpenCSG) are cast "
+                     "uncut: let it "
                      "cut them before, in OpenSCAD by render() in the script");
         }
         const Group& group = candidate.group;
         if (group.guessed_view) {
-            not_understood["draws in clip coordinates, whose field of view nobody tells: 45 degrees guessed"] =
-                group.draws;
-            say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 degrees guessed; "
+            not_understood
+                ["draws in clip coordinates, whose field of view nobody tells: 45 degrees guessed"] =
+                    group.draws;
+            say_once("the program hands over clip coordinates, and nobody tells its field of view: 45 "
+                     "degrees guessed; "
                      "--fov DEGREES tells it");
         }
         if (group.is_hidden_line()) {
-            not_understood["faces drawn into the depth buffer alone (hidden lines): in the colour of the background"] =
-                group.hidden_triangles;
+            not_understood
+                ["faces drawn into the depth buffer alone (hidden lines): in the colour of the background"] =
+                    group.hidden_triangles;
             if (group.lines > 0 && !options.include.lines)
-                say_once("hidden-line drawing: its faces are cast in the colour of the background; --include lines casts "
+                say_once("hidden-line drawing: its faces are cast in the colour of the background; --include "
+                         "lines casts "
                          "its lines too");
         }
         if (group.judged_by_function && options.transparent == Transparent::by_alpha)
             not_understood["a draw blended by its colours alone: solid or not by its function as a whole"] =
                 group.judged_by_function;
         if (stencil_plan.unfollowed > 0)
-            not_understood["a draw that a stencil test keeps to places which other views cannot tell: cast whole"] =
-                stencil_plan.unfollowed;
+            not_understood
+                ["a draw that a stencil test keeps to places which other views cannot tell: cast whole"] =
+                    stencil_plan.unfollowed;
         if (group.with_own_w)
-            not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in the picture"] =
-                group.with_own_w;
+            not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in "
+                           "the picture"] = group.with_own_w;
         for (const auto& [what, times] : not_understood)
             say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
         if (window.unanswered > 0)
-            not_understood["questions about windows that the X server did not answer in time"] = window.unanswered;
+            not_understood["questions about windows that the X server did not answer in time"] =
+                window.unanswered;
         CaptureInfo info = make_info(number, options, engine, gl);
         info.seen_places = seen_places;
         if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);
@@ -466,7 +472,8 @@ class Cast {
         const std::string path = output_name(options.out, getpid(), number);
         CastResult result = write_capture(gl, solid(candidate, engine), info, engine, path, patience);
         if (result.outcome != CastOutcome::captured) return result;
-        if (options.reference_views > 0) result = write_references(candidate, info, engine, path, std::move(result));
+        if (options.reference_views > 0)
+            result = write_references(candidate, info, engine, path, std::move(result));
         if (result.outcome != CastOutcome::captured) return result;
         tell(window.replaces ? "recaptured" : "captured", std::to_string(number) + " " + path);
         if (!window.name.empty()) result.message += " of " + window.name;
@@ -474,8 +481,9 @@ class Cast {
     }
 
     /// The same frame from sides that the capture has not, beside it; `captured` when all are written.
-    CastResult write_references(const Candidate& candidate, CaptureInfo info, const EngineOptions& captured_with,
-                                const std::string& path, CastResult captured) const {
+    CastResult write_references(const Candidate& candidate, CaptureInfo info,
+                                const EngineOptions& captured_with, const std::string& path,
+                                CastResult captured) const {
         int count = 0;
         for (const glm::dmat4& rotation : reference_rotations(options.reference_views)) {
             EngineOptions engine = captured_with;
@@ -491,7 +499,8 @@ class Cast {
             info.from_capture = rotation;
             info.eye.reset();
             info.seen_places.clear();
-            const CastResult result = write_capture(gl, draw, info, engine, reference_name(path, ++count), patience);
+            const CastResult result =
+                write_capture(gl, draw, info, engine, reference_name(path, ++count), patience);
             if (result.outcome != CastOutcome::captured) return result;
         }
         return captured;

@@ -26,7 +26,7 @@ struct CastWindow {
     std::string name;              ///< as people are told; empty where there is no other
     std::optional<Rating> to_beat; ///< what another window's cast is worth, which this one would replace
     bool replaces = false;         ///< what is captured so far
-    long unanswered = 0; ///< questions about windows that the X server left open
+    long unanswered = 0;           ///< questions about windows that the X server left open
 };
 
 /// On a thread where a context of the program's may be current; it and its drawables are so again afterwards.

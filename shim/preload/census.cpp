@@ -23,8 +23,8 @@ Census& Census::operator+=(const Census& other) {
 
 unsigned Census::kinds() const {
     unsigned bits = 0, bit = 1;
-    for (const bool is : {foreign_frames > 0, solid > 0, flat > 0, lines > 0, points > 0, pixels > 0, shaders > 0,
-                          !refused.empty(), !other_windows.empty(), !no_such_group.empty()}) {
+    for (const bool is : {foreign_frames > 0, solid > 0, flat > 0, lines > 0, points > 0, pixels > 0,
+                          shaders > 0, !refused.empty(), !other_windows.empty(), !no_such_group.empty()}) {
         bits |= is ? bit : 0;
         bit <<= 1;
     }
@@ -61,11 +61,14 @@ std::string strokes(const Census& seen) {
 /// The kind that explains most comes first; empty when a frame was refused, which says enough.
 std::string advice(const Census& seen) {
     if (seen.foreign_frames > 0 && seen.foreign_frames == seen.frames)
-        return "it draws with OpenGL ES, which has no fixed functions: only fixed-function drawing of desktop OpenGL can "
+        return "it draws with OpenGL ES, which has no fixed functions: only fixed-function drawing of "
+               "desktop OpenGL can "
                "be cast";
-    const std::string more = strokes(seen), kinds = seen.lines > 0 && seen.points > 0 ? "lines and points" : more;
+    const std::string more = strokes(seen),
+                      kinds = seen.lines > 0 && seen.points > 0 ? "lines and points" : more;
     if (seen.shaders > 0)
-        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be cast" +
+        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be "
+               "cast" +
                (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!seen.refused.empty()) return {};
     if (seen.masked > 0 && seen.masked == seen.solid)

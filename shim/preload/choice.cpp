@@ -17,7 +17,8 @@ constexpr double inset_share = 1.0 / 50; ///< of the pixels that the largest cov
 constexpr double corner_inset_share = 1.0 / 4;
 constexpr double corner_share = 1.0 / 16; ///< of the other's viewport: surely one
 constexpr long inset_richness = 10;       ///< in a larger one, so many times the triangles of the other: none
-constexpr long helper_richness = 10;      ///< an offscreen helper has at most so many times the triangles of the scene
+constexpr long helper_richness =
+    10; ///< an offscreen helper has at most so many times the triangles of the scene
 constexpr std::size_t most_pictures = 16;
 
 void add(Group& all, const Group& one) {
@@ -59,10 +60,11 @@ void find_insets(std::vector<Candidate>& candidates, const Include& include) {
     }
 }
 
-/// Of several framebuffers with a scene, none of them the window's, the one that was drawn to last, be it by what lies
-/// over the scene. What went before helped to draw it (shadow and reflection maps, the numbers that OpenCSG marks its
-/// bodies with, the colours by which dreamchess finds what the pointer is on).
-template <class IsScene> GLuint shown_framebuffer(const std::vector<Candidate>& candidates, const IsScene& is_scene) {
+/// Of several framebuffers with a scene, none of them the window's, the one that was drawn to last, be it by
+/// what lies over the scene. What went before helped to draw it (shadow and reflection maps, the numbers that
+/// OpenCSG marks its bodies with, the colours by which dreamchess finds what the pointer is on).
+template <class IsScene>
+GLuint shown_framebuffer(const std::vector<Candidate>& candidates, const IsScene& is_scene) {
     GLuint shown = 0;
     long last = -1;
     for (const Candidate& c : candidates) {

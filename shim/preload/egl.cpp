@@ -92,7 +92,8 @@ class Egl : public WindowSystem {
         EGLint id = 0;
         bool alive = true;
         for (const std::uintptr_t surface : {b.draw, b.read})
-            alive &= surface == 0 || real().eglQuerySurface(b.display, as_surface(surface), EGL_CONFIG_ID, &id);
+            alive &=
+                surface == 0 || real().eglQuerySurface(b.display, as_surface(surface), EGL_CONFIG_ID, &id);
         if (!alive) real().eglGetError(); // ours
         return alive;
     }
@@ -179,8 +180,8 @@ GLCAST_EXPORT EGLBoolean eglReleaseThread() {
     return done;
 }
 
-GLCAST_EXPORT EGLSurface eglCreateWindowSurface(EGLDisplay display, EGLConfig config, EGLNativeWindowType window,
-                                                const EGLint* attributes) {
+GLCAST_EXPORT EGLSurface eglCreateWindowSurface(EGLDisplay display, EGLConfig config,
+                                                EGLNativeWindowType window, const EGLint* attributes) {
     const Outermost outermost;
     const EGLSurface made = real().eglCreateWindowSurface(display, config, window, attributes);
     // Under Wayland it is a pointer, and of no use to the X server.
@@ -188,15 +189,16 @@ GLCAST_EXPORT EGLSurface eglCreateWindowSurface(EGLDisplay display, EGLConfig co
     return made;
 }
 
-GLCAST_EXPORT EGLSurface eglCreatePbufferSurface(EGLDisplay display, EGLConfig config, const EGLint* attributes) {
+GLCAST_EXPORT EGLSurface eglCreatePbufferSurface(EGLDisplay display, EGLConfig config,
+                                                 const EGLint* attributes) {
     const Outermost outermost;
     const EGLSurface made = real().eglCreatePbufferSurface(display, config, attributes);
     if (outermost) offscreen_made(as_number(made), true);
     return made;
 }
 
-GLCAST_EXPORT EGLSurface eglCreatePixmapSurface(EGLDisplay display, EGLConfig config, EGLNativePixmapType pixmap,
-                                                const EGLint* attributes) {
+GLCAST_EXPORT EGLSurface eglCreatePixmapSurface(EGLDisplay display, EGLConfig config,
+                                                EGLNativePixmapType pixmap, const EGLint* attributes) {
     const Outermost outermost;
     const EGLSurface made = real().eglCreatePixmapSurface(display, config, pixmap, attributes);
     if (outermost) offscreen_made(as_number(made), false);

@@ -289,14 +289,15 @@ GLCAST_EXPORT GLXPbuffer glXCreatePbuffer(Display* display, GLXFBConfig config, 
     return make_offscreen(true, [=] { return real().glXCreatePbuffer(display, config, attributes); });
 }
 
-GLCAST_EXPORT GLXPbuffer glXCreateGLXPbufferSGIX(Display* display, GLXFBConfig config, unsigned width, unsigned height,
-                                                 int* attributes) {
+GLCAST_EXPORT GLXPbuffer glXCreateGLXPbufferSGIX(Display* display, GLXFBConfig config, unsigned width,
+                                                 unsigned height, int* attributes) {
     if (!real().glXCreateGLXPbufferSGIX) return 0;
     return make_offscreen(
         true, [=] { return real().glXCreateGLXPbufferSGIX(display, config, width, height, attributes); });
 }
 
-GLCAST_EXPORT GLXPixmap glXCreatePixmap(Display* display, GLXFBConfig config, Pixmap pixmap, const int* attributes) {
+GLCAST_EXPORT GLXPixmap glXCreatePixmap(Display* display, GLXFBConfig config, Pixmap pixmap,
+                                        const int* attributes) {
     return make_offscreen(false, [=] { return real().glXCreatePixmap(display, config, pixmap, attributes); });
 }
 
@@ -315,8 +316,10 @@ GLCAST_EXPORT int64_t glXSwapBuffersMscOML(Display* display, GLXDrawable drawabl
                 [=] { return real().glXSwapBuffersMscOML(display, drawable, target, divisor, remainder); });
 }
 
-/// Shows a part, from which a program may make up its picture: what it drew for all of it is cast at the first.
-GLCAST_EXPORT void glXCopySubBufferMESA(Display* display, GLXDrawable drawable, int x, int y, int width, int height) {
+/// Shows a part, from which a program may make up its picture: what it drew for all of it is cast at the
+/// first.
+GLCAST_EXPORT void glXCopySubBufferMESA(Display* display, GLXDrawable drawable, int x, int y, int width,
+                                        int height) {
     if (!real().glXCopySubBufferMESA) return;
     swap(drawable, [=] { real().glXCopySubBufferMESA(display, drawable, x, y, width, height); });
 }

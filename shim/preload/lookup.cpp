@@ -81,7 +81,8 @@ Lookup look_up_ours(void* handle, const char* name, const void* caller) {
     // us.
     const void* const recorded = find_symbol(name);
     if (is_own(found) && !recorded) return {true, nullptr};
-    // A program with two GLs, OSMesa and another: one of them is recorded, calls of the other must not go there.
+    // A program with two GLs, OSMesa and another: one of them is recorded, calls of the other must not go
+    // there.
     if (!is_own(found) && recorded && in_osmesa(found) != in_osmesa(recorded)) return {false, nullptr};
     return {true, reinterpret_cast<void*>(ours)};
 }

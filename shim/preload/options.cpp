@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "capture/key_names.h"
-#include "capture/reference_views.h"
 #include "capture/output_name.h"
+#include "capture/reference_views.h"
 #include "shim/preload/similarity.h"
 #include "shim/preload/start.h"
 
@@ -168,7 +168,9 @@ constexpr Variable variables[] = {
          o.prepare_replay = t == "arrays";
          return o.prepare_replay || t == "calls";
      }},
-    {"GLCAST_BOX", "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1, none beyond 1e30, and a millionth of that apart", parse_box},
+    {"GLCAST_BOX",
+     "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1, none beyond 1e30, and a millionth of that apart",
+     parse_box},
     {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
      parse_frame_matrix},
     {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
@@ -212,7 +214,8 @@ std::string check_output(const std::string& out) {
     if (!std::filesystem::is_directory(folder, ignored))
         return "cannot write " + out + ": no folder " + folder.string();
     if (std::filesystem::is_directory(path, ignored)) return "cannot write " + out + ": it is a folder";
-    if (std::filesystem::is_other(path, ignored)) return "cannot write " + out + ": it is a device, a pipe or a socket";
+    if (std::filesystem::is_other(path, ignored))
+        return "cannot write " + out + ": it is a device, a pipe or a socket";
     if (access(folder.c_str(), W_OK) != 0) return "cannot write " + out + ": " + std::strerror(errno);
     return {};
 }

@@ -40,10 +40,10 @@ struct Options {
     long captures = -1; ///< GLCAST_CAPTURES: how many at most, 0: no limit; default 1; with
                         ///< GLCAST_EVERY, _KEY or _SIGNAL 0, but 1 with GLCAST_QUIT
     double after_seconds =
-        0; ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
-    std::string key;          ///< GLCAST_KEY: "F12": a frame is cast when this key is pressed, none at the start
+        0;           ///< GLCAST_AFTER: no frame that starts earlier than this after the first context
+    std::string key; ///< GLCAST_KEY: "F12": a frame is cast when this key is pressed, none at the start
     std::uint32_t key_symbol = 0; ///< X keysym of it
-    int signal = 0;     ///< GLCAST_SIGNAL: "USR1": likewise when this signal comes; 0: none
+    int signal = 0;               ///< GLCAST_SIGNAL: "USR1": likewise when this signal comes; 0: none
     bool nudge = false; ///< GLCAST_NUDGE: make a program draw that only does when it is exposed or resized
     NormalMethod normals = NormalMethod::signed_lights; ///< GLCAST_NORMALS: signed, six
     int most_layers = EngineOptions().most_layers;      ///< GLCAST_LAYERS: a number, auto, slab
@@ -53,22 +53,25 @@ struct Options {
         box; ///< GLCAST_BOX: x0,y0,z0,x1,y1,z1 in the capture frame; made a cube about its centre
     FrameMatrix frame_matrix = FrameMatrix::automatic; ///< GLCAST_FRAME_MATRIX: eye, base, or 16 numbers
     glm::dmat4 given_matrix{1.0};
-    bool list = false; ///< GLCAST_LIST: print the groups of the scene, capture nothing
+    bool list = false;        ///< GLCAST_LIST: print the groups of the scene, capture nothing
     std::string list_picture; ///< GLCAST_LIST=FILE.png: also a picture of each
     Include include;          ///< GLCAST_INCLUDE: lines, points, or both with a comma between
     Transparent transparent = Transparent::by_alpha; ///< GLCAST_TRANSPARENT: keep, skip
     bool keep_backdrops = false; ///< GLCAST_BACKDROP: keep: skies, backgrounds are cast too (backdrop.h)
-    std::optional<double> view_angle; ///< GLCAST_FOV: degrees from bottom to top, of what is drawn in clip coordinates
+    std::optional<double>
+        view_angle; ///< GLCAST_FOV: degrees from bottom to top, of what is drawn in clip coordinates
     int group =
         0; ///< GLCAST_GROUP: the group to take, as numbered by the list; 0: the one with most triangles
-    int reference_views = 0; ///< GLCAST_REFERENCE_VIEWS: so many further views beside the capture (capture/reference_views.h)
+    int reference_views =
+        0; ///< GLCAST_REFERENCE_VIEWS: so many further views beside the capture (capture/reference_views.h)
     int reference_n = 0; ///< GLCAST_REFERENCE_N: their resolution; 0: that of the capture
-    std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a part of
-                        ///< its title; empty: the one that shows most
+    std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a
+                        ///< part of its title; empty: the one that shows most
     Mask mask; ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these
     std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
-    double most_seconds = 0; ///< GLCAST_MAX_SECONDS: a cast that takes longer is given up; 0: no limit
-    bool prepare_replay = true; ///< GLCAST_REPLAY: calls: each is made again in each replay, as it was recorded
+    double most_seconds = 0;       ///< GLCAST_MAX_SECONDS: a cast that takes longer is given up; 0: no limit
+    bool prepare_replay =
+        true;               ///< GLCAST_REPLAY: calls: each is made again in each replay, as it was recorded
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
     std::string error;      ///< one line; not armed then

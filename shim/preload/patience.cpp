@@ -11,8 +11,8 @@ namespace {
 /// of an axis takes three more at least.
 constexpr int fewest_renders = 20, renders_a_layer = 3;
 constexpr double long_cast = 10; ///< seconds
-/// The first time a frame is drawn the driver compiles shaders and uploads, so the faster of two times tells; unless the
-/// first alone is such a part of a long cast.
+/// The first time a frame is drawn the driver compiles shaders and uploads, so the faster of two times tells;
+/// unless the first alone is such a part of a long cast.
 constexpr double long_first = 5; ///< seconds
 
 template <class... Values> std::string text(const char* format, Values... values) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <set>
 #include <utility>
 
 #include "shim/preload/eye_space.h"
@@ -35,9 +35,7 @@ class GroupFilter final : public DrawGate {
         blending = on;
         return wanted.transparent == Transparent::by_alpha;
     }
-    bool blending_restored() override {
-        return wanted.transparent != Transparent::by_alpha;
-    }
+    bool blending_restored() override { return wanted.transparent != Transparent::by_alpha; }
 
     bool keep(GLenum mode, long) override {
         as_points = false;
@@ -46,8 +44,8 @@ class GroupFilter final : public DrawGate {
         const std::size_t number = next++;
         const Draw& draw = scene.draws[number];
         if (draw.group != group) return false;
-        const bool skipped = (wanted.only && !(*wanted.only)[number]) ||
-                             (wanted.transparent == Transparent::skip && blending);
+        const bool skipped =
+            (wanted.only && !(*wanted.only)[number]) || (wanted.transparent == Transparent::skip && blending);
         if (wanted.everything) return !skipped;
         const bool is_wanted = !skipped && wants(draw) && may_be_found(draw, mode);
         if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
@@ -55,7 +53,8 @@ class GroupFilter final : public DrawGate {
         const double nudge = draw.nudge - (draw.is_decal ? decal_nudge : 0);
         if (draw.eye_map >= 0 || nudge != 0)
             eye_space.enter(draw.eye_map >= 0 ? &scene.eye_maps[draw.eye_map] : nullptr, nudge);
-        if (draw.hides && scene.groups[group].is_hidden_line()) hidden_faces.enter(scene.groups[group].background);
+        if (draw.hides && scene.groups[group].is_hidden_line())
+            hidden_faces.enter(scene.groups[group].background);
         return true;
     }
     void drawn() override {
@@ -89,13 +88,15 @@ class GroupFilter final : public DrawGate {
         if (!place) return true;
         if (sought.open || can_be_left_out()) {
             auto seen = parts_of(*place, [&](const Place& part) {
-                return sought.open ? sought.open->meet(part)
-                                   : !sought.outline->leave_out(part, places->around()->lo, places->around()->hi);
+                return sought.open
+                           ? sought.open->meet(part)
+                           : !sought.outline->leave_out(part, places->around()->lo, places->around()->hi);
             });
             if (seen.empty()) return false;
             if (place->parts.size() > 1) parts = std::move(seen);
         }
-        as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) && points_are_the_same();
+        as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) &&
+                    points_are_the_same();
         return true;
     }
 
@@ -153,7 +154,8 @@ Sides sides_of(const Scene& scene, int group) {
         if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
             by_culled[draw.culled == GL_BACK].insert(draw.triangles);
     }
-    for (const long triangles : by_culled[0]) sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
+    for (const long triangles : by_culled[0])
+        sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
     sides.apart |= sides.culled;
     return sides;
 }
@@ -166,7 +168,8 @@ bool Group::same_place(const Group& other) const {
     return camera && other.camera && to_space_of(*camera, *other.camera) == glm::dmat4(1.0);
 }
 
-/// In perspective the eye tells which way is which, be the depth row what it may; else the depth that is in front.
+/// In perspective the eye tells which way is which, be the depth row what it may; else the depth that is in
+/// front.
 bool Group::is_mirrored() const {
     const bool turned = glm::determinant(unscale) < 0;
     if (kind == ProjectionKind::perspective && camera) return glcast::is_mirrored(*camera) != turned;

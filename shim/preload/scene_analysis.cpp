@@ -235,7 +235,8 @@ class Analysis final : public DrawGate {
         if (!inner.IsEnabled(GL_BLEND) || inner.IsEnabled(GL_COLOR_LOGIC_OP)) return false;
         const bool has_equations = inner.BlendEquation != nullptr;
         return is_judged_by_function(static_cast<GLenum>(get_int(inner, GL_BLEND_DST)),
-                                     has_equations ? static_cast<GLenum>(get_int(inner, GL_BLEND_EQUATION)) : GL_FUNC_ADD);
+                                     has_equations ? static_cast<GLenum>(get_int(inner, GL_BLEND_EQUATION))
+                                                   : GL_FUNC_ADD);
     }
 
     bool writes_colour() const {
@@ -271,7 +272,8 @@ class Analysis final : public DrawGate {
         inner.GetIntegerv(GL_POLYGON_MODE, modes);
         const bool culls = inner.IsEnabled(GL_CULL_FACE);
         const GLint culled = culls ? get_int(inner, GL_CULL_FACE_MODE) : 0;
-        const bool fills = (modes[0] == GL_FILL && culled != GL_FRONT) || (modes[1] == GL_FILL && culled != GL_BACK);
+        const bool fills =
+            (modes[0] == GL_FILL && culled != GL_FRONT) || (modes[1] == GL_FILL && culled != GL_BACK);
         return fills ? Draw::Kind::filled : Draw::Kind::outlined;
     }
 

@@ -62,7 +62,8 @@ template <auto Member, class R, class... A> struct Rectangle<Member, R (*)(A...)
 };
 
 /// A vertex between glBegin and glEnd, however it is given.
-template <auto Member, bool GivesW, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
+template <auto Member, bool GivesW,
+          class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
 struct Vertex;
 template <auto Member, bool GivesW, class R, class... A> struct Vertex<Member, GivesW, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
@@ -131,20 +132,23 @@ void APIENTRY end() {
     gate->drawn();
 }
 
-/// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first element,
-/// `many(mode, firsts, counts, number)` several such.
-template <class One, class Many> void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
+/// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first
+/// element, `many(mode, firsts, counts, number)` several such.
+template <class One, class Many>
+void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
     if (!gate->keep(mode, primitive_count(mode, count))) return;
     const GLenum drawn = gate->as_points ? GL_POINTS : mode;
     if (!gate->parts) {
         one(drawn, 0, count);
     } else if (gate->parts->size() == 1) {
-        one(drawn, static_cast<GLint>(gate->parts->front().first), static_cast<GLsizei>(gate->parts->front().count));
+        one(drawn, static_cast<GLint>(gate->parts->front().first),
+            static_cast<GLsizei>(gate->parts->front().count));
     } else {
         std::vector<GLint> firsts;
         std::vector<GLsizei> counts;
         for (const auto& part : *gate->parts)
-            firsts.push_back(static_cast<GLint>(part.first)), counts.push_back(static_cast<GLsizei>(part.count));
+            firsts.push_back(static_cast<GLint>(part.first)),
+                counts.push_back(static_cast<GLsizei>(part.count));
         many(drawn, firsts, counts);
     }
     gate->drawn();
@@ -153,7 +157,8 @@ template <class One, class Many> void draw_parts(GLenum mode, GLsizei count, con
 void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
     const GlTable& gl = gate->inner;
     draw_parts(
-        mode, count, [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawArrays(drawn, first + at, number); },
+        mode, count,
+        [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawArrays(drawn, first + at, number); },
         [&](GLenum drawn, std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
             for (GLint& at : firsts) at += first;
             gl.MultiDrawArrays(drawn, firsts.data(), counts.data(), static_cast<GLsizei>(counts.size()));
@@ -170,7 +175,8 @@ void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void*
         mode, count,
         [&](GLenum drawn, GLint at, GLsizei number) { gl.DrawElements(drawn, number, type, from(at)); },
         [&](GLenum drawn, const std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
-            for (std::size_t i = 0; i < counts.size(); ++i) gl.DrawElements(drawn, counts[i], type, from(firsts[i]));
+            for (std::size_t i = 0; i < counts.size(); ++i)
+                gl.DrawElements(drawn, counts[i], type, from(firsts[i]));
         });
 }
 
@@ -198,7 +204,7 @@ void APIENTRY clear(GLbitfield buffers) {
 }
 
 void APIENTRY blit_framebuffer(GLint x0, GLint y0, GLint x1, GLint y1, GLint to_x0, GLint to_y0, GLint to_x1,
-                              GLint to_y1, GLbitfield buffers, GLenum) {
+                               GLint to_y1, GLbitfield buffers, GLenum) {
     if (buffers & GL_COLOR_BUFFER_BIT) gate->blitted({x0, y0, x1, y1}, {to_x0, to_y0, to_x1, to_y1});
 }
 
@@ -278,8 +284,9 @@ void APIENTRY push_matrix() {
     X(EvalCoord1f)                                                                                           \
     X(EvalCoord1dv)                                                                                          \
     X(EvalCoord1fv)                                                                                          \
-    X(EvalCoord2d) X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2)                \
-        X(ArrayElement) X(ArrayElementEXT)
+    X(EvalCoord2d)                                                                                           \
+    X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2) X(ArrayElement)               \
+        X(ArrayElementEXT)
 
 #define GLCAST_VERTICES_WITH_W(X) GLCAST_FOUR_TYPES(X, Vertex4) GLCAST_FOUR_TYPES_V(X, Vertex4)
 
@@ -300,12 +307,14 @@ void APIENTRY push_matrix() {
     X(VertexAttrib4iv)                                                                                       \
     X(VertexAttrib4ubv)                                                                                      \
     X(VertexAttrib4uiv)                                                                                      \
-    X(VertexAttrib4usv) X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub)      \
-        X(VertexAttrib4Nubv) X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
+    X(VertexAttrib4usv)                                                                                      \
+    X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub) X(VertexAttrib4Nubv)     \
+        X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
 
 #define GLCAST_EIGHT_TYPES(X, NAME)                                                                          \
-    X(NAME##b) X(NAME##d) X(NAME##f) X(NAME##i) X(NAME##s) X(NAME##ub) X(NAME##ui) X(NAME##us)               \
-    X(NAME##bv) X(NAME##dv) X(NAME##fv) X(NAME##iv) X(NAME##sv) X(NAME##ubv) X(NAME##uiv) X(NAME##usv)
+    X(NAME##b)                                                                                               \
+    X(NAME##d) X(NAME##f) X(NAME##i) X(NAME##s) X(NAME##ub) X(NAME##ui) X(NAME##us) X(NAME##bv) X(NAME##dv)  \
+        X(NAME##fv) X(NAME##iv) X(NAME##sv) X(NAME##ubv) X(NAME##uiv) X(NAME##usv)
 #define GLCAST_COLOURS(X) GLCAST_EIGHT_TYPES(X, Color3) GLCAST_EIGHT_TYPES(X, Color4)
 
 #define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)

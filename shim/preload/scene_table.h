@@ -17,8 +17,8 @@ class DrawGate {
     DrawGate(const DrawGate&) = delete;
     DrawGate& operator=(const DrawGate&) = delete;
 
-    /// `primitives`: triangles, lines or points, as the mode says; 0 for glBegin, which cannot know yet. False:
-    /// the draw is swallowed.
+    /// `primitives`: triangles, lines or points, as the mode says; 0 for glBegin, which cannot know yet.
+    /// False: the draw is swallowed.
     virtual bool keep(GLenum mode, long primitives) = 0;
     /// A draw that was kept is over.
     virtual void drawn() {}
@@ -46,7 +46,7 @@ class DrawGate {
     const GlTable& inner;
 
     // Of the draw that was kept, where it is glDrawArrays or glDrawElements.
-    bool as_points = false;                         ///< its vertices are drawn as GL_POINTS
+    bool as_points = false;                                    ///< its vertices are drawn as GL_POINTS
     std::optional<std::vector<record::DrawShape::Part>> parts; ///< what is drawn of it; nothing: all
 
     // Of the glBegin that is open; the table's functions keep these.

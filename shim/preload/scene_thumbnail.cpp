@@ -11,7 +11,8 @@ constinit thread_local const GlTable* real = nullptr;
 constinit thread_local bool culls = true; ///< the program may
 
 bool is_ours(GLenum cap) {
-    return (cap == GL_CULL_FACE && !culls) || cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST || cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
+    return (cap == GL_CULL_FACE && !culls) || cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST ||
+           cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
 }
 void APIENTRY enable(GLenum cap) {
     if (!is_ours(cap)) real->Enable(cap);
@@ -28,9 +29,7 @@ struct Ignored;
 template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
     static R APIENTRY call(A...) { return R(); }
 };
-template <auto... Members> void ignore(GlTable& table) {
-    ((table.*Members = Ignored<Members>::call), ...);
-}
+template <auto... Members> void ignore(GlTable& table) { ((table.*Members = Ignored<Members>::call), ...); }
 
 using G = GlTable;
 
@@ -40,13 +39,13 @@ GlTable picture_table(const GlTable& gl, bool program_culls) {
     real = &gl;
     culls = program_culls;
     GlTable table = gl;
-    ignore<&G::Viewport, &G::Scissor, &G::StencilFunc, &G::StencilOp, &G::StencilMask, &G::StencilFuncSeparate,
-           &G::StencilOpSeparate, &G::StencilMaskSeparate, &G::Clear, &G::ClearColor, &G::ClearDepth,
-           &G::ClearStencil, &G::DrawBuffer, &G::DrawBuffers, &G::ReadBuffer, &G::BindFramebuffer,
-           &G::BindFramebufferEXT, &G::BlitFramebuffer, &G::BlitFramebufferEXT, &G::DeleteFramebuffers,
-           &G::DeleteFramebuffersEXT, &G::Accum, &G::ColorMask, &G::CopyTexImage1D, &G::CopyTexImage2D,
-           &G::CopyTexSubImage1D, &G::CopyTexSubImage2D, &G::CopyTexSubImage3D, &G::ReadPixels, &G::Flush,
-           &G::Finish, &G::RenderMode>(table);
+    ignore<&G::Viewport, &G::Scissor, &G::StencilFunc, &G::StencilOp, &G::StencilMask,
+           &G::StencilFuncSeparate, &G::StencilOpSeparate, &G::StencilMaskSeparate, &G::Clear, &G::ClearColor,
+           &G::ClearDepth, &G::ClearStencil, &G::DrawBuffer, &G::DrawBuffers, &G::ReadBuffer,
+           &G::BindFramebuffer, &G::BindFramebufferEXT, &G::BlitFramebuffer, &G::BlitFramebufferEXT,
+           &G::DeleteFramebuffers, &G::DeleteFramebuffersEXT, &G::Accum, &G::ColorMask, &G::CopyTexImage1D,
+           &G::CopyTexImage2D, &G::CopyTexSubImage1D, &G::CopyTexSubImage2D, &G::CopyTexSubImage3D,
+           &G::ReadPixels, &G::Flush, &G::Finish, &G::RenderMode>(table);
     table.Enable = enable;
     table.Disable = disable;
     table.PushAttrib = push_attrib;
@@ -85,7 +84,8 @@ void read(const GlTable& gl, const Target& target, Thumbnail& thumbnail) {
         for (int x = 0; x < thumbnail.width; ++x) {
             const std::size_t at = std::size_t(y) * n + x;
             for (int channel = 0; channel < 3; ++channel)
-                thumbnail.rgb.push_back(std::uint8_t(std::clamp(colour[at][channel], 0.0f, 1.0f) * 255 + 0.5f));
+                thumbnail.rgb.push_back(
+                    std::uint8_t(std::clamp(colour[at][channel], 0.0f, 1.0f) * 255 + 0.5f));
             if (!drawn[at]) continue;
             ++covered;
             nearest = std::min(nearest, depth[at]), furthest = std::max(furthest, depth[at]);

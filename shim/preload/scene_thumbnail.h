@@ -16,13 +16,13 @@ struct Thumbnail {
     bool flat = false;             ///< all of it at one depth
 };
 
-/// What the program draws, but where to and what it wipes away; with `culls` false, nor does it cull. One at a time on
-/// a thread, while `gl` lives.
+/// What the program draws, but where to and what it wipes away; with `culls` false, nor does it cull. One at
+/// a time on a thread, while `gl` lives.
 GlTable picture_table(const GlTable& gl, bool culls = true);
 
-/// Draws into a framebuffer of ours, in the current context. `draw` plays the group through the table that it is
-/// given; the program's viewport, scissor, stencil, clears and framebuffers are left out. `size`: of the longer
-/// side.
+/// Draws into a framebuffer of ours, in the current context. `draw` plays the group through the table that it
+/// is given; the program's viewport, scissor, stencil, clears and framebuffers are left out. `size`: of the
+/// longer side.
 Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
                          bool depth_reversed, int size);
 
@@ -33,8 +33,9 @@ struct DepthPicture {
     float at(int x, int y) const { return depth[std::size_t(y) * stride + x]; }
 };
 
-/// As draw_thumbnail, and whatever is drawn writes its depth. `culls`: as the program culls; else all faces are drawn.
-DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport, bool culls,
-                         int size);
+/// As draw_thumbnail, and whatever is drawn writes its depth. `culls`: as the program culls; else all faces
+/// are drawn.
+DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
+                         bool culls, int size);
 
 } // namespace glcast::preload

@@ -16,7 +16,8 @@ namespace {
 /// Parts kept for a swap to come; more are only seen where a program draws and never shows it.
 constexpr std::size_t most_parts = 32;
 
-/// Frames that are recorded before their time: so many, and after them those of a program that draws so seldom.
+/// Frames that are recorded before their time: so many, and after them those of a program that draws so
+/// seldom.
 constexpr long most_kept_early = 30;
 constexpr std::chrono::milliseconds seldom{100};
 
@@ -117,8 +118,8 @@ void refuse(Session& s, const std::string& why) {
     tell("refused", why);
 }
 
-/// Ends a context's recording; what it holds becomes a part of the frame that has not ended. The mutex is held, and
-/// the context is current on this thread or on none.
+/// Ends a context's recording; what it holds becomes a part of the frame that has not ended. The mutex is
+/// held, and the context is current on this thread or on none.
 void close_recording(Session& s, NativeContext& context) {
     if (!context.recording) return;
     context.recording = false;
@@ -135,8 +136,8 @@ void close_recording(Session& s, NativeContext& context) {
     s.parts.push_back({owner->second, context.recorded_drawable, std::move(frame), draws});
 }
 
-/// A drawable that is never swapped (a pbuffer, or a window under a context that draws to framebuffer objects)
-/// takes part in the frames of those that are.
+/// A drawable that is never swapped (a pbuffer, or a window under a context that draws to framebuffer
+/// objects) takes part in the frames of those that are.
 Ended frames_of(const Session& s, const NativeContext& context, std::uintptr_t drawable) {
     if (const auto at = s.ended.find({&context, drawable}); at != s.ended.end()) return at->second;
     const bool swapped = s.swapped.contains(drawable);
@@ -185,15 +186,16 @@ void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable
         const std::lock_guard lock(s.mutex);
         return refuse(s, why);
     }
-    on_own_stack(HeldSignals::all, [&] { record::begin_frame(*context.shadow); }); // it asks GL for all its state
-    const std::lock_guard lock(s.mutex); // other threads look at what is recorded
+    on_own_stack(HeldSignals::all,
+                 [&] { record::begin_frame(*context.shadow); }); // it asks GL for all its state
+    const std::lock_guard lock(s.mutex);                         // other threads look at what is recorded
     context.recording = true;
     context.recorded_drawable = drawable;
     context.reads = {};
 }
 
-/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
-/// that are never swapped. `context`, where not null, is current on this thread.
+/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of
+/// drawables that are never swapped. `context`, where not null, is current on this thread.
 std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintptr_t drawable) {
     const std::lock_guard lock(s.mutex);
     const auto shows = [&](std::uintptr_t other) { return other == drawable || !s.swapped.contains(other); };
@@ -215,10 +217,12 @@ std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintp
     return taken;
 }
 
-/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
+/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with
+/// ours.
 void keep_of_this_display(std::vector<FramePart>& parts) {
     if (!thread_state.context) return;
-    std::erase_if(parts, [](const FramePart& part) { return part.context->display != thread_state.context->display; });
+    std::erase_if(
+        parts, [](const FramePart& part) { return part.context->display != thread_state.context->display; });
 }
 
 namespace {
@@ -227,7 +231,8 @@ namespace {
 /// is current with the drawable.
 void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
     ++s.frames;
-    if (!s.has_shown.exchange(true) && s.offscreen) tell("offscreen", ""); // Qt has a pbuffer beside its windows
+    if (!s.has_shown.exchange(true) && s.offscreen)
+        tell("offscreen", ""); // Qt has a pbuffer beside its windows
     forget_front();
     s.triggers.look_for_signals();
     update_unwanted(s);
@@ -386,7 +391,8 @@ void made_current(const Binding& binding) noexcept {
         if (now != before || binding.draw != thread_state.drawable) forget_front();
         {
             const std::lock_guard lock(s.mutex);
-            thread_state = {now, binding.draw, true, s.pbuffers.contains(binding.draw), s.pixmaps.contains(binding.draw)};
+            thread_state = {now, binding.draw, true, s.pbuffers.contains(binding.draw),
+                            s.pixmaps.contains(binding.draw)};
         }
         record::set_current(now ? now->shadow.get() : nullptr, real_table());
         if (!now) return;

@@ -21,20 +21,21 @@ struct NativeContext {
     std::function<void*()>
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
     std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
-    std::atomic<void*> sibling{nullptr}; ///< made when first needed, ours to destroy
+    std::atomic<void*> sibling{nullptr};     ///< made when first needed, ours to destroy
     // Changed by the thread on which it is current, where there is one, and with the session's mutex held.
     bool recording = false;
     std::uintptr_t recorded_drawable = 0;
     int threads = 0; ///< on which it is current
     bool destroyed = false;
-    bool in_cast = false; ///< a cast has left it and will come back, or makes a sibling of it; on whatever thread
+    bool in_cast =
+        false; ///< a cast has left it and will come back, or makes a sibling of it; on whatever thread
     /// Of the frame that is recorded, since something was drawn: how far that was, and the pixels read.
     struct Reads {
         std::uint64_t drawn = 0;
         long pixels = 0;
     } reads;
-    /// A frame has ended elsewhere while this context was current on a thread of its own: what it has drawn by its
-    /// next flush belongs to that frame.
+    /// A frame has ended elsewhere while this context was current on a thread of its own: what it has drawn
+    /// by its next flush belongs to that frame.
     std::atomic<bool> end_is_due{false};
 };
 
@@ -55,7 +56,8 @@ bool shadows_calls();
 /// `share` is a native handle or null. A null `make_sibling`: the context is not desktop GL.
 void context_made(const WindowSystem& system, void* display, void* handle, void* share,
                   std::function<void*()> make_sibling) noexcept;
-/// Before the real destroy. False where a cast on another thread uses the context: that destroys it at its end.
+/// Before the real destroy. False where a cast on another thread uses the context: that destroys it at its
+/// end.
 bool context_destroyed(void* display, void* handle) noexcept;
 /// After a make-current that succeeded; null context: none is current on this thread.
 void made_current(const Binding& binding) noexcept;
@@ -68,10 +70,11 @@ void after_swap(std::uintptr_t drawable) noexcept;
 void offscreen_made(std::uintptr_t drawable, bool is_pbuffer) noexcept;
 /// Of an idle program, and of one that has swapped, nothing need be asked.
 bool reads_may_end_frames() noexcept;
-/// Before a read of so many pixels. While nothing was ever swapped, a frame ends where a picture of it is read; a few
-/// pixels are no picture, for programs look so what the pointer is on.
+/// Before a read of so many pixels. While nothing was ever swapped, a frame ends where a picture of it is
+/// read; a few pixels are no picture, for programs look so what the pointer is on.
 void pixels_are_read(long pixels) noexcept;
-/// Before another context or drawable becomes current on this thread: what was drawn to a pixmap is flushed then.
+/// Before another context or drawable becomes current on this thread: what was drawn to a pixmap is flushed
+/// then.
 void before_leaving() noexcept;
 /// Display lists of this thread's context that were filled by other means than GL calls.
 void lists_made_elsewhere(GLuint first, GLsizei count) noexcept;

@@ -102,7 +102,8 @@ void look_at_windows(Session& s, const NativeContext& context) {
 }
 
 /// Nothing where no frame of this window is wanted.
-std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, std::uintptr_t drawable, FrameEnd end) {
+std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, std::uintptr_t drawable,
+                                    FrameEnd end) {
     const std::string& wanted = s.options.window;
     bool alone = false;
     {
@@ -121,8 +122,7 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
         if (may_follow && !s.told_looks.exchange(true)) tell("looks", s.windows.list());
         return CastWindow{s.windows.describe(drawable),
                           s.holding && !s.read_is_held ? s.windows.held() : std::nullopt,
-                          s.holding || (s.read_is_open && end == FrameEnd::shown),
-                          s.inquiry.unanswered()};
+                          s.holding || (s.read_is_open && end == FrameEnd::shown), s.inquiry.unanswered()};
     }
     Census other;
     other.other_windows =
@@ -132,7 +132,8 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     return std::nullopt;
 }
 
-/// A frame that a read has ended is held: a swap may soon show what is better. False: it is to be taken as any.
+/// A frame that a read has ended is held: a swap may soon show what is better. False: it is to be taken as
+/// any.
 bool holds_a_read(Session& s, const CastResult& result, FrameEnd end) {
     const bool shown = result.outcome == CastOutcome::captured || result.outcome == CastOutcome::listed;
     const bool is_only = takes_one(s.options);
@@ -194,7 +195,8 @@ bool is_captured_by_a_child() {
         return;
     }
     if (const char* where = s->offscreen; where && frames == 0)
-        return say("%s draws into %s, and neither swaps nor reads what it draws: nothing captured", program.c_str(), where);
+        return say("%s draws into %s, and neither swaps nor reads what it draws: nothing captured",
+                   program.c_str(), where);
     if (frames == 0) return say("%s ended no frame: nothing captured", program.c_str());
     if (empty == 0)
         return say("%s ended after %ld frame%s, before the one asked for: nothing captured", program.c_str(),
@@ -202,14 +204,16 @@ bool is_captured_by_a_child() {
     say("%ld frame%s, none with solid geometry: nothing captured (%s)", empty, plural(empty), why.c_str());
 }
 
-/// The contexts of a cast: the one that is current on this thread, which it leaves for a while, and those of the parts,
-/// of which it makes siblings. Where the program destroys one meanwhile, that is done when the cast is over.
+/// The contexts of a cast: the one that is current on this thread, which it leaves for a while, and those of
+/// the parts, of which it makes siblings. Where the program destroys one meanwhile, that is done when the
+/// cast is over.
 class HeldContexts {
   public:
     /// Parts whose context is gone go.
     HeldContexts(Session& session, std::vector<FramePart>& parts, const NativeContext* current) : s(session) {
         const std::lock_guard lock(s.mutex);
-        // To leave a context that the program has destroyed would end it for good (piglit's glx-destroycontext-3).
+        // To leave a context that the program has destroyed would end it for good (piglit's
+        // glx-destroycontext-3).
         if (current && current->destroyed) parts.clear();
         std::erase_if(parts, [](const FramePart& part) { return part.context->destroyed; });
         if (parts.empty()) return;
@@ -248,8 +252,8 @@ class HeldContexts {
 };
 
 /// Whether a frame was drawn for it.
-bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window, long number,
-                  FrameEnd end) {
+bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window,
+                  long number, FrameEnd end) {
     if (s.casting.exchange(true)) return false; // another thread casts
     struct Over {
         std::atomic<bool>& casting;

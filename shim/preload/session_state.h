@@ -28,7 +28,8 @@ struct Ended {
 /// Frames are counted for each window of each context.
 using FrameKey = std::pair<const void*, std::uintptr_t>;
 
-/// The last whole frame with draws that can be replayed, of a program that need not draw again once its time has come.
+/// The last whole frame with draws that can be replayed, of a program that need not draw again once its time
+/// has come.
 struct Kept {
     std::vector<FramePart> parts;
     FrameKey window;
@@ -54,14 +55,15 @@ struct Session {
     Census seen;
     unsigned told_kinds = 0;
     Windows windows;
-    WindowInquiry inquiry; ///< of who sets `casting`
+    WindowInquiry inquiry;         ///< of who sets `casting`
     std::vector<Candidate> listed; ///< of the windows that were looked at so far
 
     std::atomic<bool> casting{false}, hooked{false};
     std::atomic<bool> settled{false};    ///< captured, listed or failed: nothing more to say at exit
     std::atomic<bool> told_looks{false}; ///< other windows may still show something better
     std::atomic<bool> holding{false};    ///< something is captured or listed, and not yet the last word
-    std::atomic<bool> read_is_held{false}; ///< of a frame that a read has ended: whatever a swap shows is better
+    std::atomic<bool> read_is_held{
+        false}; ///< of a frame that a read has ended: whatever a swap shows is better
     std::atomic<bool> read_is_open{false}; ///< the same, where several captures are wanted: not counted yet
     std::atomic<bool> has_shown{false};    ///< a frame has ended by a swap, or by a flush of the front buffer
     std::atomic<const char*> offscreen{nullptr}; ///< where it draws that is no window
@@ -107,10 +109,11 @@ template <class Work> void guarded(Work&& work) noexcept {
 bool is_late_enough(const Session& s);
 /// Record what follows, if it may be the frame that is waited for.
 void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable);
-/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of drawables
-/// that are never swapped. `context`, where not null, is current on this thread.
+/// What was drawn since the last frame ended and shows with this drawable: its own parts, and those of
+/// drawables that are never swapped. `context`, where not null, is current on this thread.
 std::vector<FramePart> take_parts(Session& s, NativeContext* context, std::uintptr_t drawable);
-/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with ours.
+/// Another connection may be closed by now (piglit's glx-multithread-clearbuffer), and shares nothing with
+/// ours.
 void keep_of_this_display(std::vector<FramePart>& parts);
 /// A frame's end that is no swap; the next one begins right behind it.
 void frame_ends_here(Session& s, bool (*really)());

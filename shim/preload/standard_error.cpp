@@ -49,7 +49,8 @@ Identity identify(int descriptor) {
     if (fstat(descriptor, &status) != 0) return {};
     Identity found{kind_of(descriptor, status), status.st_dev, status.st_rdev, status.st_ino, 0, 0};
     struct statx more {};
-    if (found.kind == Kind::file && syscall(SYS_statx, descriptor, "", AT_EMPTY_PATH, STATX_BTIME, &more) == 0 &&
+    if (found.kind == Kind::file &&
+        syscall(SYS_statx, descriptor, "", AT_EMPTY_PATH, STATX_BTIME, &more) == 0 &&
         (more.stx_mask & STATX_BTIME) != 0) {
         found.born = more.stx_btime.tv_sec;
         found.born_nanoseconds = more.stx_btime.tv_nsec;

@@ -45,10 +45,12 @@ void reset_state(const GlTable& gl) {
     gl.GetIntegerv(GL_MAX_CLIP_PLANES, &planes);
     for (GLint unit = units - 1; unit >= 0; --unit) {
         if (gl.ActiveTexture) gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-        for (const GLenum cap : {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP}) gl.Disable(cap);
+        for (const GLenum cap : {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP})
+            gl.Disable(cap);
     }
     for (GLint plane = 0; plane < planes; ++plane) gl.Disable(GL_CLIP_PLANE0 + static_cast<GLenum>(plane));
-    for (const GLenum cap : {GL_LIGHTING, GL_ALPHA_TEST, GL_BLEND, GL_CULL_FACE, GL_POLYGON_STIPPLE, GL_COLOR_SUM})
+    for (const GLenum cap :
+         {GL_LIGHTING, GL_ALPHA_TEST, GL_BLEND, GL_CULL_FACE, GL_POLYGON_STIPPLE, GL_COLOR_SUM})
         gl.Disable(cap);
     gl.ShadeModel(GL_SMOOTH);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -66,11 +68,13 @@ std::array<glm::dvec3, 8> prism(const Stroke& stroke, double half) {
                                                     : glm::dvec3(0, 0, 1);
     const glm::dvec3 u = glm::normalize(glm::cross(along, off)) * half, v = glm::cross(along, u);
     const glm::dvec3 from = stroke.from - along * half, to = stroke.to + along * half;
-    return {from - u - v, from + u - v, from + u + v, from - u + v, to - u - v, to + u - v, to + u + v, to - u + v};
+    return {from - u - v, from + u - v, from + u + v, from - u + v,
+            to - u - v,   to + u - v,   to + u + v,   to - u + v};
 }
 
 void draw_stroke(const Stroke& stroke, double half, const GlTable& gl) {
-    constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
     const auto corners = prism(stroke, half);
     for (const auto& face : faces)
         for (const int corner : face) {
@@ -81,7 +85,8 @@ void draw_stroke(const Stroke& stroke, double half, const GlTable& gl) {
 
 } // namespace
 
-std::vector<Stroke> collect_strokes(const GlTable& gl, const DrawFunction& draw, const EngineOptions& options) {
+std::vector<Stroke> collect_strokes(const GlTable& gl, const DrawFunction& draw,
+                                    const EngineOptions& options) {
     return read_strokes(feed_back(gl, draw, options, GL_3D_COLOR), FeedbackLattice(*options.box));
 }
 

@@ -31,15 +31,19 @@ const GlTable& recording_table();
 
 /// Before a real read of pixels: it ends the frame of a program that never swaps (reads.cpp).
 namespace before {
-void ReadPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, void* pixels) noexcept;
+void ReadPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type,
+                void* pixels) noexcept;
 void ReadnPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, GLsizei bytes,
                  void* pixels) noexcept;
-void ReadnPixelsARB(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, GLsizei bytes,
-                    void* pixels) noexcept;
+void ReadnPixelsARB(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type,
+                    GLsizei bytes, void* pixels) noexcept;
 void GetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void* pixels) noexcept;
-void GetnTexImage(GLenum target, GLint level, GLenum format, GLenum type, GLsizei bytes, void* pixels) noexcept;
-void GetnTexImageARB(GLenum target, GLint level, GLenum format, GLenum type, GLsizei bytes, void* pixels) noexcept;
-void GetTextureImage(GLuint texture, GLint level, GLenum format, GLenum type, GLsizei bytes, void* pixels) noexcept;
+void GetnTexImage(GLenum target, GLint level, GLenum format, GLenum type, GLsizei bytes,
+                  void* pixels) noexcept;
+void GetnTexImageARB(GLenum target, GLint level, GLenum format, GLenum type, GLsizei bytes,
+                     void* pixels) noexcept;
+void GetTextureImage(GLuint texture, GLint level, GLenum format, GLenum type, GLsizei bytes,
+                     void* pixels) noexcept;
 } // namespace before
 
 /// Before glDrawBuffer: the front buffer may be chosen for a while only, and flushed later.
@@ -73,7 +77,7 @@ void flushed() noexcept;
 #define GLCAST_READ_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                                \
     extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                   \
     extern "C" GLCAST_EXPORT void APIENTRY gl##NAME##_stub PARAMETERS {                                      \
-        glcast::preload::before::NAME ARGUMENTS;                                                      \
+        glcast::preload::before::NAME ARGUMENTS;                                                             \
         const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
         (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME ARGUMENTS;                 \
     }                                                                                                        \

@@ -31,7 +31,8 @@ struct ShareGroup {
     std::unordered_map<GLuint, List> lists;
     int recording = 0;               ///< contexts of the group that record a frame
     std::vector<ListChange> changes; ///< since the first of them began; emptied when the last has ended
-    /// Contexts that record or compile: while there are any, `buffers` is true, whichever context of the group changes one.
+    /// Contexts that record or compile: while there are any, `buffers` is true, whichever context of the
+    /// group changes one.
     std::atomic<int> reading{0};
     std::unordered_map<GLuint, Blob>
         buffers; ///< copies of whole buffers, dropped when the program changes one
@@ -52,7 +53,7 @@ using MatrixStack = std::vector<Matrix>;
 struct TextureCopy {
     GLuint name = 0; ///< the program's
     GLenum target = 0;
-    Stream contents; ///< its images and parameters
+    Stream contents;  ///< its images and parameters
     Charge at_replay; ///< what the texture takes in the driver that replays make of it
 };
 
@@ -67,12 +68,14 @@ struct Frame {
     std::unordered_map<GLuint, List> lists; ///< as they stood at the start
     std::vector<List> redefinitions;        ///< by number, from define_list packets
     std::vector<Blob> blobs;                ///< by number, from draw packets
-    std::vector<TextureCopy> textures;      ///< by number, from end_texture packets or nameless from the start
-    mutable std::vector<GLuint> stand_ins;  ///< texture objects that hold these, made by the first replay
-    std::set<GLenum> filled_defaults; ///< targets whose texture named 0 gets an image in the frame
-    mutable std::map<GLenum, GLuint> default_textures; ///< target -> what replays bind for its texture named 0
+    std::vector<TextureCopy> textures;     ///< by number, from end_texture packets or nameless from the start
+    mutable std::vector<GLuint> stand_ins; ///< texture objects that hold these, made by the first replay
+    std::set<GLenum> filled_defaults;      ///< targets whose texture named 0 gets an image in the frame
+    mutable std::map<GLenum, GLuint>
+        default_textures; ///< target -> what replays bind for its texture named 0
     std::map<std::string, long> not_understood;
-    mutable std::shared_ptr<Prepared> prepared; ///< by prepare(), before the first replay; null: played as recorded
+    mutable std::shared_ptr<Prepared>
+        prepared; ///< by prepare(), before the first replay; null: played as recorded
 };
 
 /// What a context offers, read once.
@@ -101,10 +104,12 @@ struct Recording {
         std::uint64_t draws; ///< when it was bound first, or copied last
     };
     std::unordered_map<GLuint, TextureUse> textures;
-    std::unordered_map<GLuint, std::uint32_t> nameless; ///< copies of those that no name finds, by what it was
+    std::unordered_map<GLuint, std::uint32_t>
+        nameless; ///< copies of those that no name finds, by what it was
     std::uint64_t draws = 0;
     bool calls_lists = false; ///< which may bind any texture
-    std::optional<std::unordered_map<GLuint, GLenum>> list_textures; ///< their targets; found when first asked for
+    std::optional<std::unordered_map<GLuint, GLenum>>
+        list_textures;    ///< their targets; found when first asked for
     std::string given_up; ///< why; empty while all is well
 };
 

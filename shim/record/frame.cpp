@@ -97,7 +97,9 @@ std::shared_ptr<const Frame> frame_so_far(Context& context) {
     return context.recording->frame;
 }
 
-std::uint64_t draws_so_far(const Context& context) { return context.recording ? context.recording->draws : 0; }
+std::uint64_t draws_so_far(const Context& context) {
+    return context.recording ? context.recording->draws : 0;
+}
 
 const std::map<std::string, long>& not_understood(const Frame& frame) { return frame.not_understood; }
 

@@ -44,8 +44,8 @@ void Player::call_list(GLuint name) {
 namespace {
 constexpr GLint deepest = 256; // no GL has deeper stacks; guards against a table that answers nonsense
 
-/// Counts before it pops, as the loop over matrices does: `gl` may swallow the pops of a stack that it keeps for
-/// itself.
+/// Counts before it pops, as the loop over matrices does: `gl` may swallow the pops of a stack that it keeps
+/// for itself.
 void pop_attributes(const GlTable& gl) {
     const GLint attribs = std::min(get_int(gl, GL_ATTRIB_STACK_DEPTH), deepest);
     for (GLint i = 0; i < attribs; ++i) gl.PopAttrib();

@@ -71,8 +71,8 @@ template <class T> void read_values(Reader& reader, bool is_vector, VertexCall& 
     }
 }
 
-/// Adds the call to what is known of its attribute. False where vertices have gone before without it, or with another
-/// number of values: Mesa's vertices then differ from those of arrays.
+/// Adds the call to what is known of its attribute. False where vertices have gone before without it, or with
+/// another number of values: Mesa's vertices then differ from those of arrays.
 bool note(Primitive& primitive, const VertexCall& call, const Stream::Run& run) {
     auto& all = primitive.attributes;
     auto at = std::find_if(all.begin(), all.end(), [&](const Primitive::Attribute& a) {

@@ -38,8 +38,9 @@ const GlTable& table();
 extern std::atomic<std::uint32_t> active;
 bool always_shadowed(GlCall call);
 
-/// The most bytes that all frames and lists may take together: calls, copies of buffers and of textures, and the textures
-/// that replays make of these; more than that is as if memory had run out. For the whole process.
+/// The most bytes that all frames and lists may take together: calls, copies of buffers and of textures, and
+/// the textures that replays make of these; more than that is as if memory had run out. For the whole
+/// process.
 void set_memory_limit(std::size_t bytes);
 
 /// Up to 8 MiB of what was recorded before is kept for the next frame: goes back to the system.
@@ -59,7 +60,8 @@ struct Frame;
 void begin_frame(Context& context);
 /// Ends the recording. Null when it had to be given up (out of memory), with the reason in `why`.
 std::shared_ptr<const Frame> end_frame(Context& context, std::string* why = nullptr);
-/// What is recorded so far, for a look at it before the context's next call; the recording goes on. Null as above.
+/// What is recorded so far, for a look at it before the context's next call; the recording goes on. Null as
+/// above.
 std::shared_ptr<const Frame> frame_so_far(Context& context);
 /// Draws and calls of lists in it; 0 where nothing is recorded.
 std::uint64_t draws_so_far(const Context& context);
@@ -72,14 +74,15 @@ std::size_t frame_bytes(const Frame& frame);
 /// skipped and counted.
 void note_opaque_lists(Context& context, GLuint first, GLsizei count);
 
-/// Deletes the copies of textures that replays of the frame have made, in a context that shares objects with the
-/// program's. Nothing may be replayed after.
+/// Deletes the copies of textures that replays of the frame have made, in a context that shares objects with
+/// the program's. Nothing may be replayed after.
 bool has_copies(const Frame& frame);
 void delete_copies(const Frame& frame, const GlTable& gl);
 
-/// Lets go of the program's objects that a context of ours, which may live on, still holds after replays of the frame:
-/// of textures in its bindings and on its stack of attributes. These would come back at the next replay, to which
-/// the program may have changed them, and contexts share what comes back: parameters of textures.
+/// Lets go of the program's objects that a context of ours, which may live on, still holds after replays of
+/// the frame: of textures in its bindings and on its stack of attributes. These would come back at the next
+/// replay, to which the program may have changed them, and contexts share what comes back: parameters of
+/// textures.
 void let_go(const Frame& frame, const GlTable& gl);
 
 /// A draw as it is played, with glDrawArrays or glDrawElements.
@@ -87,20 +90,21 @@ struct DrawShape {
     GLenum mode;
     bool is_known; ///< where its vertices lie, whose w is 1
     bool is_whole; ///< no vertex is left over that makes no primitive
-    /// Elements (vertices or indices), counted from the draw's first; whole primitives that may be drawn for themselves, in
-    /// order. Of strips, the last two are those that the next part begins with.
+    /// Elements (vertices or indices), counted from the draw's first; whole primitives that may be drawn for
+    /// themselves, in order. Of strips, the last two are those that the next part begins with.
     struct Part {
         std::uint32_t first, count;
     };
     std::vector<Part> parts; ///< one, where it is drawn as a whole
 };
 
-/// Before the first replay: what is drawn between glBegin and glEnd becomes arrays, where the same comes of that to the
-/// bit, so that replays need not make each call again. Memory counts as a recording; what does not fit stays as it is.
+/// Before the first replay: what is drawn between glBegin and glEnd becomes arrays, where the same comes of
+/// that to the bit, so that replays need not make each call again. Memory counts as a recording; what does
+/// not fit stays as it is.
 void prepare(const Frame& frame);
 
-/// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn. Null:
-/// nothing is known of it.
+/// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn.
+/// Null: nothing is known of it.
 const DrawShape* shape_of_draw();
 /// x, y and z of the vertices of a part of it, in the program's own coordinates.
 void read_positions(const DrawShape::Part& part, std::vector<float>& xyz);

@@ -29,8 +29,8 @@ class Stream {
     Stream(Stream&&) = default;
     Stream& operator=(Stream&&) = default;
 
-    /// Room for a packet's body of `bytes`, aligned to 4. Throws std::bad_alloc, also when all recordings would take more
-    /// than their limit, and is then as it was.
+    /// Room for a packet's body of `bytes`, aligned to 4. Throws std::bad_alloc, also when all recordings
+    /// would take more than their limit, and is then as it was.
     std::byte* append(Op op, std::size_t bytes);
 
     /// Gives back what the last chunk holds too much: display lists are many and small.
@@ -39,7 +39,8 @@ class Stream {
     bool empty() const { return chunks.empty(); }
 
     template <class Visitor> void for_each(Visitor&& visit) const {
-        for (const Chunk& chunk : chunks) for_each(Run{chunk.block.data(), chunk.block.data() + chunk.used}, visit);
+        for (const Chunk& chunk : chunks)
+            for_each(Run{chunk.block.data(), chunk.block.data() + chunk.used}, visit);
     }
 
     /// Whole packets one behind the other.

@@ -53,7 +53,7 @@ void rewrite_by_openexr(const std::filesystem::path& from, const std::filesystem
 }
 
 bool threads_are_refused = false;
-}
+} // namespace
 
 /// Stands before the C library's.
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
@@ -230,7 +230,8 @@ TEST(CaptureFile, BothSidesRoundTrip) {
             for (int c = 0; c < 3; ++c)
                 worst_colour = std::max<double>(worst_colour, std::abs(image.other_colour[p][c] - colour[c]));
             if (normal.w > 0)
-                worst_angle = std::max(worst_angle, angle_degrees(glm::vec3(image.other_normal[p]), glm::vec3(normal)));
+                worst_angle =
+                    std::max(worst_angle, angle_degrees(glm::vec3(image.other_normal[p]), glm::vec3(normal)));
         }
     }
     EXPECT_LT(worst_angle, 0.002);

@@ -154,8 +154,10 @@ TEST(Glb, KhronosValidatorFindsNothing) {
     write_levels(folder / "one.glb", std::vector{level_of(small, "level 0")}, {.one_file = true});
     write_levels(folder / "three.glb",
                  std::vector{level_of(torus(300, 220), "level 0"), level_of(small, "level 1", 0.1),
-                             level_of(tetrahedron(), "level 2", 0.3)}, {.one_file = true});
-    write_levels(folder / "far.glb", std::vector{level_of(moved(small, {5e5, 0, -3e6}), "level 0")}, {.one_file = true});
+                             level_of(tetrahedron(), "level 2", 0.3)},
+                 {.one_file = true});
+    write_levels(folder / "far.glb", std::vector{level_of(moved(small, {5e5, 0, -3e6}), "level 0")},
+                 {.one_file = true});
     write_levels(folder / "bare.glb", std::vector{level_of(bare, "level 0")}, {.one_file = true});
     const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
     EXPECT_EQ(ran.status, 0) << ran.output;

@@ -35,7 +35,8 @@ void write(const std::filesystem::path& path, const Level& level, std::string_vi
 /// As assimp finds it, equal places joined.
 Mesh by_assimp(const std::filesystem::path& path) {
     Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+    const aiScene* scene =
+        importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
     Mesh mesh;
     if (!scene) return mesh;
     std::map<std::array<float, 3>, std::uint32_t> seen;
@@ -45,7 +46,8 @@ Mesh by_assimp(const std::filesystem::path& path) {
             Triangle triangle{};
             for (unsigned k = 0; k < 3; ++k) {
                 const aiVector3D& p = part.mVertices[part.mFaces[t].mIndices[k]];
-                const auto [at, is_new] = seen.try_emplace({p.x, p.y, p.z}, std::uint32_t(mesh.positions.size()));
+                const auto [at, is_new] =
+                    seen.try_emplace({p.x, p.y, p.z}, std::uint32_t(mesh.positions.size()));
                 if (is_new) mesh.positions.emplace_back(p.x, p.y, p.z);
                 triangle[k] = at->second;
             }
@@ -95,7 +97,8 @@ TEST(ThreeMf, ReadBackByLib3mfWithUnitAndColours) {
     const Folder folder;
     const Mesh mesh = torus(20, 12);
     write(folder / "t.3mf", level_of(mesh), "inch");
-    PLib3MFBase *model = nullptr, *reader = nullptr, *objects = nullptr, *object = nullptr, *handler = nullptr;
+    PLib3MFBase *model = nullptr, *reader = nullptr, *objects = nullptr, *object = nullptr,
+                *handler = nullptr;
     ASSERT_EQ(lib3mf_createmodel(&model), 0);
     ASSERT_EQ(lib3mf_model_queryreader(model, "3mf", &reader), 0);
     ASSERT_EQ(lib3mf_reader_readfromfileutf8(reader, (folder / "t.3mf").c_str()), 0);
@@ -167,7 +170,8 @@ class Made {
         NMR::PLib3MFBase *group = nullptr, *whole = nullptr;
         DWORD id = 0, index = 0;
         ok(NMR::lib3mf_model_addbasematerialgroup(model, &group));
-        ok(NMR::lib3mf_basematerial_addmaterialutf8(kept(group), "paint", colour[0], colour[1], colour[2], &index));
+        ok(NMR::lib3mf_basematerial_addmaterialutf8(kept(group), "paint", colour[0], colour[1], colour[2],
+                                                    &index));
         ok(NMR::lib3mf_resource_getresourceid(group, &id));
         ok(NMR::lib3mf_object_createdefaultpropertyhandler(object, &whole));
         ok(NMR::lib3mf_defaultpropertyhandler_setbasematerial(kept(whole), id, index));

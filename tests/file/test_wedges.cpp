@@ -25,7 +25,8 @@ Level cube(const char* name = "level 0") {
     CornerValues normals, colours;
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
-            const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, from = side ? 1u << axis : 0;
+            const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3,
+                                from = side ? 1u << axis : 0;
             const std::uint32_t b = side ? from + u : from + v, d = side ? from + v : from + u;
             level.mesh.triangles.push_back({from, b, from + u + v});
             level.mesh.triangles.push_back({from, from + u + v, d});
@@ -151,7 +152,8 @@ TEST(WedgesInFiles, AreSplitVerticesForOthers) {
             for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
                 const auto& i = mesh.mFaces[f].mIndices;
                 const aiVector3D face = ((mesh.mVertices[i[1]] - mesh.mVertices[i[0]]) ^
-                                         (mesh.mVertices[i[2]] - mesh.mVertices[i[0]])).Normalize();
+                                         (mesh.mVertices[i[2]] - mesh.mVertices[i[0]]))
+                                            .Normalize();
                 for (int k = 0; k < 3; ++k) EXPECT_GT(face * mesh.mNormals[i[k]], 0.999f) << f;
             }
         }
@@ -180,7 +182,8 @@ TEST(PlainColours, AreMaterialsInGlb) {
         ASSERT_EQ(json["meshes"][0]["primitives"].size(), materials);
         for (const auto& primitive : json["meshes"][0]["primitives"]) {
             EXPECT_FALSE(primitive["attributes"].contains("COLOR_0"));
-            EXPECT_TRUE(json["materials"][primitive["material"].get<int>()]["pbrMetallicRoughness"].contains("baseColorFactor"));
+            EXPECT_TRUE(json["materials"][primitive["material"].get<int>()]["pbrMetallicRoughness"].contains(
+                "baseColorFactor"));
         }
         const Level read = read_levels(folder / "c.glb").at(0);
         expect_closed(read, 8);
@@ -200,7 +203,8 @@ TEST(PlainColours, StayApartWhereTheFileDoesNotFit) {
     const std::string file = read_text(folder / "c.glb");
     format::GlbChunks chunks = format::glb_chunks(file);
     const auto primitive = chunks.json["meshes"][0]["primitives"][0];
-    for (const int wrong : {primitive["indices"].get<int>(), primitive["attributes"]["POSITION"].get<int>(), 1000}) {
+    for (const int wrong :
+         {primitive["indices"].get<int>(), primitive["attributes"]["POSITION"].get<int>(), 1000}) {
         chunks.json["meshes"][0]["extras"]["vertices"] = wrong;
         const std::string_view bytes = chunks.bytes;
         write_text(folder / "d.glb", format::glb_head(chunks.json, bytes.size()) + std::string(bytes) +
@@ -232,7 +236,8 @@ TEST(WedgesInFiles, KhronosValidatorFindsNothing) {
     int k = 0;
     for (const Compression compression : {Compression::none, Compression::quantize, Compression::meshopt})
         for (const Level& level : {cube(), creased_torus()})
-            write_levels(folder / (std::to_string(k++) + ".glb"), std::vector{level}, {.compression = compression});
+            write_levels(folder / (std::to_string(k++) + ".glb"), std::vector{level},
+                         {.compression = compression});
     const Ran ran = run("node " GLCAST_VALIDATE " " + folder.path().string() + "/*.glb");
     EXPECT_EQ(ran.status, 0) << ran.output;
 }

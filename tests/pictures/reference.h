@@ -38,13 +38,13 @@ struct Likeness {
     double ssim = 0;       ///< mean of the views
 };
 struct PictureError {
-    Likeness antialiased;        ///< a pixel is the mean of all its samples, after light
-    Likeness one_sample;         ///< a pixel is one of its samples
-    double psnr_covered = 0;     ///< samples that the original or the level covers
-    double psnr_inside = 0;      ///< samples that both cover: colour and light, whatever the outlines do
+    Likeness antialiased;    ///< a pixel is the mean of all its samples, after light
+    Likeness one_sample;     ///< a pixel is one of its samples
+    double psnr_covered = 0; ///< samples that the original or the level covers
+    double psnr_inside = 0;  ///< samples that both cover: colour and light, whatever the outlines do
     // What would be left of `antialiased` if one of its two parts were perfect:
-    double psnr_outline = 0; ///< samples that one covers alone are off, those that both cover perfect
-    double psnr_filling = 0; ///< samples that both cover are off, the others perfect
+    double psnr_outline = 0;     ///< samples that one covers alone are off, those that both cover perfect
+    double psnr_filling = 0;     ///< samples that both cover are off, the others perfect
     double background_share = 0; ///< samples that neither covers
     int width = 0;               ///< pixels of a picture
     std::size_t views = 0;

@@ -106,8 +106,9 @@ TEST(Culling, SolidsStayAsTheyAre) {
     EXPECT_TRUE(floor.capture->info.seen_places.empty());
 }
 
-/// From below, where the floor of walls that cull their fronts is not drawn, the bottom of the furniture is seen: red too.
-/// Walls have two sides; what stands on them covers as much of the inner one as it adds at its top.
+/// From below, where the floor of walls that cull their fronts is not drawn, the bottom of the furniture is
+/// seen: red too. Walls have two sides; what stands on them covers as much of the inner one as it adds at its
+/// top.
 struct Inside {
     const char* way;
     double walls, furniture, red; ///< area of one side, volume, area

@@ -1,5 +1,5 @@
-// Replays from arrays, which leave out what a pass cannot find, against replays call by call (GLCAST_REPLAY=calls): the
-// same capture, byte for byte.
+// Replays from arrays, which leave out what a pass cannot find, against replays call by call
+// (GLCAST_REPLAY=calls): the same capture, byte for byte.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -22,7 +22,9 @@ std::vector<Program> programs() {
     const auto fixture = [&](const std::string& shape, const std::string& way, Environment environment = {}) {
         std::string name = shape + "_" + way;
         for (const auto& [variable, value] : environment) name += "_" + value;
-        all.push_back({name, {FIXTURE_GLX, "--shape", shape, "--way", way, "--frames", "2", "--size", "160x120"}, environment});
+        all.push_back({name,
+                       {FIXTURE_GLX, "--shape", shape, "--way", way, "--frames", "2", "--size", "160x120"},
+                       environment});
     };
     for (const char* shape : {"torus", "spheres", "cube", "knob", "teapot"}) fixture(shape, "immediate");
     for (const char* way : {"nested_lists", "client_arrays", "buffers"}) fixture("torus", way);
@@ -31,7 +33,8 @@ std::vector<Program> programs() {
     for (const char* kind : {"cad", "sky", "glass", "decals", "refilled"})
         all.push_back({std::string("scene_") + kind, {SCENES, kind}, {}});
     all.push_back({"scene_wires", {SCENES, "wires"}, {{"GLCAST_INCLUDE", "lines"}}});
-    for (const char* way : {"look_at_pushed", "look_at"}) all.push_back({std::string("view_") + way, {VIEWS, way}, {}});
+    for (const char* way : {"look_at_pushed", "look_at"})
+        all.push_back({std::string("view_") + way, {VIEWS, way}, {}});
     for (const char* way : {"tint", "opaque_by_constant", "transparency"})
         all.push_back({std::string("blend_") + way, {BLENDS, way}, {}});
     for (const char* way : {"state_left", "attributes", "elements"})

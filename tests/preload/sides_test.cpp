@@ -22,7 +22,8 @@ struct SidesRun {
 SidesRun cast(const std::string& way) {
     const TemporaryFolder folder;
     SidesRun result;
-    result.outcome = run_program({SIDES, way}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", std::to_string(n)}}, true);
+    result.outcome = run_program(
+        {SIDES, way}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", std::to_string(n)}}, true);
     EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
     if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
     return result;
@@ -52,8 +53,8 @@ Areas measure(const Capture& capture) {
 
 struct Truth {
     const char* way;
-    double side;  ///< area of one side of all sheets
-    bool is_lit;  ///< its normals are drawn
+    double side; ///< area of one side of all sheets
+    bool is_lit; ///< its normals are drawn
 };
 
 class Sides : public testing::TestWithParam<Truth> {};
@@ -73,13 +74,14 @@ TEST_P(Sides, have_a_colour_each) {
 }
 
 constexpr double bent = 2 * std::numbers::pi / 2 * 4;
-INSTANTIATE_TEST_SUITE_P(Programs, Sides,
-                         testing::Values(Truth{"plates", 8, true}, Truth{"plates_by_colour_material", 8, true},
-                                         Truth{"plates_by_two_passes", 8, false}, Truth{"four_plates", 16, true},
-                                         Truth{"four_plates_by_two_passes", 16, false}, Truth{"bent_sheet", bent, true},
-                                         Truth{"bent_sheet_by_two_passes", bent, false}, Truth{"open_box", 20, true},
-                                         Truth{"open_box_by_two_passes", 20, false}),
-                         [](const auto& info) { return std::string(info.param.way); });
+INSTANTIATE_TEST_SUITE_P(
+    Programs, Sides,
+    testing::Values(Truth{"plates", 8, true}, Truth{"plates_by_colour_material", 8, true},
+                    Truth{"plates_by_two_passes", 8, false}, Truth{"four_plates", 16, true},
+                    Truth{"four_plates_by_two_passes", 16, false}, Truth{"bent_sheet", bent, true},
+                    Truth{"bent_sheet_by_two_passes", bent, false}, Truth{"open_box", 20, true},
+                    Truth{"open_box_by_two_passes", 20, false}),
+    [](const auto& info) { return std::string(info.param.way); });
 
 TEST(SidesTest, that_look_alike_are_drawn_once) {
     const SidesRun run = cast("one_colour"), both = cast("four_plates");

@@ -1,5 +1,5 @@
-// What a program draws by way of its stencil buffer is cast as its test lets it be seen: caps of cut bodies, faces filled by
-// parity and decals are, outlines are not (programs/stencils.c).
+// What a program draws by way of its stencil buffer is cast as its test lets it be seen: caps of cut bodies,
+// faces filled by parity and decals are, outlines are not (programs/stencils.c).
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -73,24 +73,21 @@ TEST_P(Stencils, cast_as_the_window_shows) {
 }
 
 constexpr double root_of_8 = 2.8284271247461903;
-INSTANTIATE_TEST_SUITE_P(Programs, Stencils,
-                         testing::Values(Truth{"cap_by_two_passes", 4, 16, 0, 4}, Truth{"cap_by_invert", 4, 16, 0, 4},
-                                         Truth{"cap_by_two_sides", 4, 16, 0, 4},
-                                         Truth{"cap_by_extension", 4, 16, 0, 4},
-                                         Truth{"cap_of_a_hollow_box", 3.5, 18, 0, 3},
-                                         Truth{"cap_beside_others", 8, 32, 0, 4},
-                                         Truth{"cap_askew", 4, 12 + 2 * root_of_8, 0, 2 * root_of_8},
-                                         Truth{"two_caps", 2, 10, 0, 4}, Truth{"concave_by_parity", 6, 22, 6, 0},
-                                         Truth{"holed_by_parity", 6, 30, 6, 0}, Truth{"outline", 8, 24, 0, 0},
-                                         Truth{"outline_where_0", 8, 24, 0, 0},
-                                         Truth{"outline_of_far_faces", 8, 24, 0, 0},
-                                         Truth{"outline_of_value_2", 12, 40, 0, 0},
-                                         Truth{"outline_before_its_body", 8, 24, 0, 0},
-                                         Truth{"outline_of_marks_but_the_body", 8, 24, 0, 0},
-                                         Truth{"floor_where_nothing_is", 24, 64, 0, 0}, Truth{"decal", 8, 24, 1.5, 0},
-                                         Truth{"decal_at_equal_depth", 8, 24, 1.5, 0},
-                                         Truth{"label_in_front", 8, 24, 0, 0},                                         Truth{"lit_without_shadow", 8, 24, 0, 0}),
-                         [](const auto& info) { return std::string(info.param.way); });
+INSTANTIATE_TEST_SUITE_P(
+    Programs, Stencils,
+    testing::Values(Truth{"cap_by_two_passes", 4, 16, 0, 4}, Truth{"cap_by_invert", 4, 16, 0, 4},
+                    Truth{"cap_by_two_sides", 4, 16, 0, 4}, Truth{"cap_by_extension", 4, 16, 0, 4},
+                    Truth{"cap_of_a_hollow_box", 3.5, 18, 0, 3}, Truth{"cap_beside_others", 8, 32, 0, 4},
+                    Truth{"cap_askew", 4, 12 + 2 * root_of_8, 0, 2 * root_of_8},
+                    Truth{"two_caps", 2, 10, 0, 4}, Truth{"concave_by_parity", 6, 22, 6, 0},
+                    Truth{"holed_by_parity", 6, 30, 6, 0}, Truth{"outline", 8, 24, 0, 0},
+                    Truth{"outline_where_0", 8, 24, 0, 0}, Truth{"outline_of_far_faces", 8, 24, 0, 0},
+                    Truth{"outline_of_value_2", 12, 40, 0, 0}, Truth{"outline_before_its_body", 8, 24, 0, 0},
+                    Truth{"outline_of_marks_but_the_body", 8, 24, 0, 0},
+                    Truth{"floor_where_nothing_is", 24, 64, 0, 0}, Truth{"decal", 8, 24, 1.5, 0},
+                    Truth{"decal_at_equal_depth", 8, 24, 1.5, 0}, Truth{"label_in_front", 8, 24, 0, 0},
+                    Truth{"lit_without_shadow", 8, 24, 0, 0}),
+    [](const auto& info) { return std::string(info.param.way); });
 
 TEST(StencilTest, by_invisible_marks_cuts_a_hole) {
     const StencilRun run = cast("hole_in_a_wall"), parts = cast("wall_of_four_parts");

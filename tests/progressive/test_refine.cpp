@@ -88,10 +88,14 @@ TEST(RefineWedges, EveryLevelHasNormalsByCorner) {
     const Folder folder;
     const auto at = [&](const std::string& name) { return (folder / name).string(); };
     ASSERT_EQ(write_box(folder / "cast.exr", 40), "");
-    ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("c.glb") + " --texture none --triangles 200 --pm " + at("c.glpm")).status, 0);
+    ASSERT_EQ(glcast_run("mesh " + at("cast.exr") + " -o " + at("c.glb") +
+                         " --texture none --triangles 200 --pm " + at("c.glpm"))
+                  .status,
+              0);
     for (const char* count : {"1000", "200", "60"}) {
         SCOPED_TRACE(count);
-        ASSERT_EQ(glcast_run("refine " + at("c.glpm") + " -o " + at("x.glb") + " --triangles " + count).status, 0);
+        ASSERT_EQ(
+            glcast_run("refine " + at("c.glpm") + " -o " + at("x.glb") + " --triangles " + count).status, 0);
         const Level level = read_levels(folder / "x.glb").at(0);
         ASSERT_FALSE(level.wedges.normals.empty());
         double off = 0, all = 0;

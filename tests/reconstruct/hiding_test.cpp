@@ -93,7 +93,8 @@ TEST(Hiding, SamplesGoWithTheNearerSide) {
         const Rays rays = rays_of(*random_body(dice));
         const SliceHits along_z(rays);
         const Volume runs = wide_space(rays, along_z, int(seed % 2)); // 0: walls within it
-        const Volume space = marked_runs(runs, std::vector<std::uint8_t>(runs.runs.size(), with_border), with_border);
+        const Volume space =
+            marked_runs(runs, std::vector<std::uint8_t>(runs.runs.size(), with_border), with_border);
         const Sight sight = random_sight(dice, int(seed % 3) + 2);
         const std::vector<bool> want = expected(rays, space, sight);
         const Volume got = without_hidden(rays, along_z, space, sight);

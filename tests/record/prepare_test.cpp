@@ -1,4 +1,5 @@
-// What is drawn between glBegin and glEnd, played from arrays: the same to the bit as call by call, or not from arrays.
+// What is drawn between glBegin and glEnd, played from arrays: the same to the bit as call by call, or not
+// from arrays.
 #include <cmath>
 
 #include "tests/record/rig.h"
@@ -37,7 +38,8 @@ constexpr int points = 60;
 /// Of a band that winds round the axis, in and out.
 void place(int i, float (&p)[3]) {
     const float angle = 0.21f * static_cast<float>(i / 2), side = i % 2 ? 0.9f : -0.7f;
-    p[0] = std::cos(angle) * (1 + 0.1f * static_cast<float>(i % 5)), p[1] = side + 0.02f * static_cast<float>(i);
+    p[0] = std::cos(angle) * (1 + 0.1f * static_cast<float>(i % 5)),
+    p[1] = side + 0.02f * static_cast<float>(i);
     p[2] = std::sin(angle);
 }
 
@@ -66,16 +68,22 @@ Drawing of_mode(const char* name, GLenum mode) {
 
 std::vector<Drawing> drawings() {
     std::vector<Drawing> all = {
-        of_mode("points", GL_POINTS),           of_mode("lines", GL_LINES),
-        of_mode("line_strip", GL_LINE_STRIP),   of_mode("line_loop", GL_LINE_LOOP),
-        of_mode("triangles", GL_TRIANGLES),     of_mode("triangle_strip", GL_TRIANGLE_STRIP),
-        of_mode("triangle_fan", GL_TRIANGLE_FAN), of_mode("quads", GL_QUADS),
-        of_mode("quad_strip", GL_QUAD_STRIP),   of_mode("polygon", GL_POLYGON),
+        of_mode("points", GL_POINTS),
+        of_mode("lines", GL_LINES),
+        of_mode("line_strip", GL_LINE_STRIP),
+        of_mode("line_loop", GL_LINE_LOOP),
+        of_mode("triangles", GL_TRIANGLES),
+        of_mode("triangle_strip", GL_TRIANGLE_STRIP),
+        of_mode("triangle_fan", GL_TRIANGLE_FAN),
+        of_mode("quads", GL_QUADS),
+        of_mode("quad_strip", GL_QUAD_STRIP),
+        of_mode("polygon", GL_POLYGON),
     };
     const auto add = [&](const char* name, bool from_arrays, Calls frame) {
         all.push_back({name, from_arrays, std::move(frame)});
     };
-    for (const GLenum mode : {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON, GL_TRIANGLE_FAN})
+    for (const GLenum mode :
+         {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON, GL_TRIANGLE_FAN})
         all.push_back({"flat_" + std::to_string(mode), true, [mode](const GlTable& gl) {
                            light(gl);
                            gl.ShadeModel(GL_FLAT);
@@ -95,9 +103,11 @@ std::vector<Drawing> drawings() {
     });
     add("long_strip", true, [](const GlTable& gl) { // longer than a driver's own buffer
         light(gl);
-        for (const GLenum mode : {GL_TRIANGLE_STRIP, GL_QUAD_STRIP, GL_POLYGON, GL_TRIANGLES}) band(gl, mode, 60000);
+        for (const GLenum mode : {GL_TRIANGLE_STRIP, GL_QUAD_STRIP, GL_POLYGON, GL_TRIANGLES})
+            band(gl, mode, 60000);
     });
-    add("incomplete", true, [](const GlTable& gl) { light(gl), band(gl, GL_TRIANGLES, 59), band(gl, GL_QUADS, 58); });
+    add("incomplete", true,
+        [](const GlTable& gl) { light(gl), band(gl, GL_TRIANGLES, 59), band(gl, GL_QUADS, 58); });
     add("what_stays_current", true, [](const GlTable& gl) {
         light(gl);
         gl.Color3f(1, 0, 0);
@@ -112,7 +122,8 @@ std::vector<Drawing> drawings() {
         for (int i = 0; i < points; ++i) {
             float p[3];
             place(i, p);
-            i % 2 ? gl.Color4d(0.3, 0.02 * i, 0.7, 0.5) : gl.Color3f(0.9f, 0.1f, 0.01f * static_cast<float>(i));
+            i % 2 ? gl.Color4d(0.3, 0.02 * i, 0.7, 0.5)
+                  : gl.Color3f(0.9f, 0.1f, 0.01f * static_cast<float>(i));
             if (i % 3 == 0) gl.Normal3f(p[0], 0, p[2]);
             i % 2   ? gl.Vertex2d(p[0], p[1])
             : i % 4 ? gl.Vertex4f(p[0], p[1], p[2], 1.25f)

@@ -97,10 +97,9 @@ void print_layers(const Json& layers) {
 
 void print_capture(const Json& j) {
     const auto& lo = j["box"]["lo"];
-    std::printf("capture   %s, %ld bytes, complete\n", word(j["file"]).c_str(),
-                j["bytes"].get<long>());
-    std::printf("program   %s, frame %ld, %s\n", word(j["program"]).c_str(),
-                j["frame"].get<long>(), word(j["renderer"]).c_str());
+    std::printf("capture   %s, %ld bytes, complete\n", word(j["file"]).c_str(), j["bytes"].get<long>());
+    std::printf("program   %s, frame %ld, %s\n", word(j["program"]).c_str(), j["frame"].get<long>(),
+                word(j["renderer"]).c_str());
     std::printf("lattice   n = %d, box from (%.6g, %.6g, %.6g), size %.6g, sample %.6g\n", j["n"].get<int>(),
                 lo[0].get<double>(), lo[1].get<double>(), lo[2].get<double>(), j["box"]["size"].get<double>(),
                 j["sample"].get<double>());
@@ -166,7 +165,8 @@ int info(const Options& options) {
 
 Run declare_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.add_option("file", options->file, "capture (.exr), mesh (.glb, .obj, .ply, .off, .stl) or progressive mesh (.glpm)")
+    app.add_option("file", options->file,
+                   "capture (.exr), mesh (.glb, .obj, .ply, .off, .stl) or progressive mesh (.glpm)")
         ->required();
     app.add_flag("--json", options->json, "print one JSON object on standard output");
     return [options] { return info(*options); };

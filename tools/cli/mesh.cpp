@@ -19,9 +19,11 @@ struct Options {
     double close_gaps = 1, sheet_thickness = 0.1;
     std::vector<double> pixels, edges, triangles, ratio;
     std::vector<std::string> max_error;
-    std::string texture = "auto", compress = "none", levels = "files", units; ///< units: none said: millimetres
+    std::string texture = "auto", compress = "none", levels = "files",
+                units; ///< units: none said: millimetres
     bool full = false, check = false, json = false, verbose = false;
-    bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it starts a program
+    bool rehearse = false; ///< options and output are looked at, and nothing else: glcast-run asks before it
+                           ///< starts a program
 };
 
 const char* exterior_name(ExteriorRule rule) { return rule == ExteriorRule::layers ? "layers" : "axes"; }
@@ -90,7 +92,8 @@ void print_made(const Options& options, const MeshedCapture& made) {
         json["files"].push_back({{"path", file.string()}, {"bytes", std::filesystem::file_size(file)}});
     if (!options.pm.empty())
         json["files"].push_back({{"path", options.pm}, {"bytes", std::filesystem::file_size(options.pm)}});
-    for (std::size_t k = 0; k < made.levels.size(); ++k) json["levels"].push_back(describe_level(options, made, k));
+    for (std::size_t k = 0; k < made.levels.size(); ++k)
+        json["levels"].push_back(describe_level(options, made, k));
     json["surface"] = {{"exterior", exterior_name(r.exterior)},
                        {"layers", layers_name(made.info.layers)},
                        {"filledSamples", r.filled_samples},
@@ -102,10 +105,10 @@ void print_made(const Options& options, const MeshedCapture& made) {
                        {"disagreeingNormalsShare", r.disagreeing_normals_share},
                        {"verticesWithoutPixel", r.vertices_without_pixel}};
     const MeshedCapture::Seconds& seconds = made.seconds;
-    json["seconds"] = {{"read", seconds.read},          {"carve", r.carve_seconds},
-                       {"contour", r.surface_seconds},  {"attributes", r.attribute_seconds},
-                       {"surface", seconds.surface},    {"simplify", seconds.simplify},
-                       {"texture", seconds.texture},    {"measure", seconds.measure},
+    json["seconds"] = {{"read", seconds.read},         {"carve", r.carve_seconds},
+                       {"contour", r.surface_seconds}, {"attributes", r.attribute_seconds},
+                       {"surface", seconds.surface},   {"simplify", seconds.simplify},
+                       {"texture", seconds.texture},   {"measure", seconds.measure},
                        {"write", seconds.write}};
     json["peakBytes"] = usage.ru_maxrss * 1024L;
     print_json(json);
@@ -114,8 +117,9 @@ void print_made(const Options& options, const MeshedCapture& made) {
 /// Each level and each file, with their figures.
 void say_figures(const Options& options, const MeshedCapture& made) {
     say(options.capture + ": n = " + std::to_string(made.info.n) + ", sample " + number(made.sample) + ", " +
-        number(100 * made.surface.unsupported_area_share) + " % of the surface seen by no ray; the full surface has " +
-        std::to_string(made.full_triangles) + " triangles");
+        number(100 * made.surface.unsupported_area_share) +
+        " % of the surface seen by no ray; the full surface has " + std::to_string(made.full_triangles) +
+        " triangles");
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         const Level& level = made.levels[k];
         std::string line = level.name + " (" + made.asked[k].option + "): " + summary(made.checks[k]);
@@ -132,7 +136,9 @@ void say_made(const Options& options, const MeshedCapture& made) {
     if (made.surface.exterior == ExteriorRule::axes && options.exterior == "layers")
         say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
             "): cavities that no axis looks into are filled; capture again with --layers auto");
-    if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share); !advice.empty()) say(advice);
+    if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share);
+        !advice.empty())
+        say(advice);
     for (const std::string& note : made.notes) say(printable(note));
     if (!options.pm.empty())
         say("wrote " + printable(options.pm) + " (" + std::to_string(std::filesystem::file_size(options.pm)) +
@@ -164,24 +170,32 @@ int make_mesh(const Options& options) {
 
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer(
-        "Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, each a file with one mesh.\n"
-        "By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n being the samples\n"
-        "of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both ways, measured. What asks\n"
-        "for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and nothing else.\n"
-        "A level has plain colours by materials where these show it right, else a texture.\n"
-        "Every level is a closed two-manifold and is measured against the full surface, or nothing is written.\n"
-        "With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the\n"
-        "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
-        "Positions are in the captured model's own units and axes. .off and .3mf keep colours but no normals, .stl neither.");
+    app.footer("Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, "
+               "each a file with one mesh.\n"
+               "By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n "
+               "being the samples\n"
+               "of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both "
+               "ways, measured. What asks\n"
+               "for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and "
+               "nothing else.\n"
+               "A level has plain colours by materials where these show it right, else a texture.\n"
+               "Every level is a closed two-manifold and is measured against the full surface, or nothing is "
+               "written.\n"
+               "With --pm all levels come of one run of collapses, without the fit that halves their error, "
+               "and are levels of the\n"
+               "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
+               "Positions are in the captured model's own units and axes. .off and .3mf keep colours but no "
+               "normals, .stl neither.");
     app.add_option("capture", options->capture, "capture made by glcast-run (.exr)")->required();
-    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")->required();
+    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")
+        ->required();
     app.add_option("--method", options->method,
                    "contour: smooth, sharp edges kept; cubes: a square per exposed face")
         ->check(CLI::IsMember({"contour", "cubes"}))
         ->capture_default_str();
     app.add_option("--exterior", options->exterior,
-                   "layers: filled is what the outside does not reach or nobody can see; axes: what no axis sees past")
+                   "layers: filled is what the outside does not reach or nobody can see; axes: what no axis "
+                   "sees past")
         ->check(CLI::IsMember({"layers", "axes"}))
         ->capture_default_str();
     app.add_option("--sheet-thickness", options->sheet_thickness,
@@ -208,7 +222,8 @@ Run declare_mesh(CLI::App& app) {
     triangles->check(CLI::Range(4.0, 1e10))->excludes(ratio);
     ratio->check(CLI::Range(1e-9, 1.0));
     app.add_option("--max-error", options->max_error,
-                   "the coarsest level nowhere farther than this from the full surface, measured: samples (0.5), units "
+                   "the coarsest level nowhere farther than this from the full surface, measured: samples "
+                   "(0.5), units "
                    "(0.5u), % of the diagonal (0.1%)")
         ->delimiter(',')
         ->check([](const std::string& text) {
@@ -226,27 +241,34 @@ Run declare_mesh(CLI::App& app) {
         ->check(CLI::IsMember({"drawn", "geometric"}))
         ->capture_default_str();
     app.add_option("--texture", options->texture,
-                   "auto: levels that plain colours would show wrongly, as large as they need; none; or bake colours and normals of every level into "
+                   "auto: levels that plain colours would show wrongly, as large as they need; none; or bake "
+                   "colours and normals of every level into "
                    "textures so many texels wide: 64, 128, ... 8192")
         ->check(texture_size())
         ->capture_default_str();
     app.parse_complete_callback([options] {
         const std::string ending = std::filesystem::path(options->output).extension();
         if (!options->units.empty() && ending != ".stl" && ending != ".3mf")
-            throw CLI::ValidationError("--units", "is for .stl and .3mf: other formats have no unit of length to say");
+            throw CLI::ValidationError("--units",
+                                       "is for .stl and .3mf: other formats have no unit of length to say");
         if (options->texture != "auto" && options->texture != "none" && options->method == "cubes")
-            throw CLI::ValidationError("--texture", "needs --method contour: each step of the cubes would be a chart");
+            throw CLI::ValidationError("--texture",
+                                       "needs --method contour: each step of the cubes would be a chart");
     });
     app.add_option("--compress", options->compress,
-                   ".glb: quantize: 16-bit positions, a fifth smaller; meshopt: the same, compressed: a sixth of the size")
+                   ".glb: quantize: 16-bit positions, a fifth smaller; meshopt: the same, compressed: a "
+                   "sixth of the size")
         ->check(CLI::IsMember({"none", "quantize", "meshopt"}))
         ->capture_default_str();
-    app.add_option("--units", options->units, ".stl, .3mf: what a unit of the model is: um, mm, cm, inch, ft or m; default: mm")
+    app.add_option("--units", options->units,
+                   ".stl, .3mf: what a unit of the model is: um, mm, cm, inch, ft or m; default: mm")
         ->check(CLI::IsMember({"um", "mm", "cm", "inch", "ft", "m"}));
-    app.add_option("--levels", options->levels, "files: a file each; one-file: .glb with all of them, by MSFT_lod")
+    app.add_option("--levels", options->levels,
+                   "files: a file each; one-file: .glb with all of them, by MSFT_lod")
         ->check(CLI::IsMember({"files", "one-file"}))
         ->capture_default_str();
-    app.add_option("--pm", options->pm, "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
+    app.add_option("--pm", options->pm,
+                   "progressive mesh to write too: .glpm (all, for glcast refine) or .pm (OpenMesh's)");
     app.add_flag("--check", options->check, "count self-intersections of every level too");
     app.add_flag("--verbose", options->verbose, "say the figures of every level and file");
     app.add_flag("--json", options->json, "print one JSON object on standard output");

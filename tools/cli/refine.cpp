@@ -51,7 +51,7 @@ void check_options(const Options& options) {
 
 struct Refined {
     Mesh mesh;
-    Wedges wedges; ///< of a level below the finest
+    Wedges wedges;                 ///< of a level below the finest
     std::size_t level = 0, to = 0; ///< to: of a geomorph the finer one
     bool within = true;            ///< the level is as small as was asked for
 };
@@ -145,7 +145,8 @@ Run declare_refine(CLI::App& app) {
         "quarter of the way from where they are in the coarser one; at 0 it looks like that one, at 1 it is "
         "the finer.");
     app.add_option("file", options->file, "progressive mesh (.glpm)")->required();
-    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")->required();
+    app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")
+        ->required();
     auto* edges = app.add_option("--edges", options->edges, "the finest level with at most so many edges");
     auto* triangles =
         app.add_option("--triangles", options->triangles, "the finest level with at most so many triangles");

@@ -35,8 +35,7 @@ std::vector<AreaSample> area_samples(const Mesh& mesh, std::size_t samples) {
         // Sample k stands at (k+½)/samples of the area; within the triangle by Roberts's R2 sequence, folded.
         while (points.size() < samples && (double(points.size()) + 0.5) * total < passed * double(samples)) {
             const double k = double(points.size() + 1);
-            double u = fraction(0.5 + k * 0.7548776662466927),
-                   v = fraction(0.5 + k * 0.5698402909980532);
+            double u = fraction(0.5 + k * 0.7548776662466927), v = fraction(0.5 + k * 0.5698402909980532);
             if (u + v > 1) u = 1 - u, v = 1 - v;
             const Triangle& t = mesh.triangles[i];
             const glm::dvec3 normal = area_normal(mesh, t);

@@ -251,8 +251,8 @@ struct LevelMeter::Impl {
         const SurfaceIndex level_index(level.mesh, SurfaceIndex::Tree::quick);
         const std::vector<AreaSample> on_level = points_of(level, points_a_side / glance_one_of);
         const Glance there = distances_of(
-            on_full.size() / glance_one_of, [&](std::size_t i) { return on_full[i * glance_one_of].at.position; },
-            level_index);
+            on_full.size() / glance_one_of,
+            [&](std::size_t i) { return on_full[i * glance_one_of].at.position; }, level_index);
         const Glance back = distances_of(
             on_level.size(), [&](std::size_t i) { return on_level[i].position; }, index);
         return {std::max(there.mean, back.mean), std::max(there.p999, back.p999)};

@@ -18,8 +18,8 @@ struct Glance {
 /// larger of the two; so are those of normals and colours, which are compared with the nearest point that
 /// faces the same way, so that the sides of a thin sheet do not get mixed up. The maximum is over these
 /// points and all vertices of both surfaces. Hidden parts count as all others. Colours are left at 0 where
-/// one of the two has none. Shares of unsupported area and of disagreeing normals are those of `full`. The same levels give the same
-/// numbers, bit for bit, on any number of threads.
+/// one of the two has none. Shares of unsupported area and of disagreeing normals are those of `full`. The
+/// same levels give the same numbers, bit for bit, on any number of threads.
 class LevelMeter {
   public:
     explicit LevelMeter(const Level& full); ///< Throws std::runtime_error on a mesh without triangles.

@@ -14,7 +14,7 @@ using exr::Attributes;
 
 constexpr std::uint64_t largest_header =
     16u << 20; // hundreds of parts of a few kB each, and thousands of not-understood calls
-constexpr std::uint64_t best_ratio = 1100; // deflate makes 1032 bytes of one at most
+constexpr std::uint64_t best_ratio = 1100;    // deflate makes 1032 bytes of one at most
 constexpr std::uint64_t bytes_per_pixel = 26; // at least
 constexpr int format_of_both_sides = 3;
 constexpr std::size_t most_parts = 3 * (max_layers + 1);
@@ -56,9 +56,11 @@ exr::Compression compression_of(const Attributes& header) {
 }
 
 std::span<const char* const> channel_names(bool both_sides) {
-    static constexpr const char* of_one[channel_count] = {"A", "B", "G", "N.V", "N.X", "N.Y", "N.Z", "R", "Z"};
-    static constexpr const char* of_both[both_channel_count] = {"A",   "B",   "G",     "N.V",   "N.X",   "N.Y",   "N.Z", "R",
-                                                                "T.B", "T.G", "T.N.V", "T.N.X", "T.N.Y", "T.N.Z", "T.R", "Z"};
+    static constexpr const char* of_one[channel_count] = {"A",   "B",   "G", "N.V", "N.X",
+                                                          "N.Y", "N.Z", "R", "Z"};
+    static constexpr const char* of_both[both_channel_count] = {
+        "A",   "B",   "G",     "N.V",   "N.X",   "N.Y",   "N.Z", "R",
+        "T.B", "T.G", "T.N.V", "T.N.X", "T.N.Y", "T.N.Z", "T.R", "Z"};
     if (both_sides) return of_both;
     return of_one;
 }

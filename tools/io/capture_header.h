@@ -18,8 +18,8 @@ inline constexpr std::size_t channel_count = 9, both_channel_count = 16;
 struct PartHeader {
     View view;
     exr::Compression compression = exr::Compression::none;
-    int covered = 0, with_normal = 0;       ///< pixels
-    std::vector<bool> half; ///< of each channel: 2 bytes a pixel, else 4
+    int covered = 0, with_normal = 0; ///< pixels
+    std::vector<bool> half;           ///< of each channel: 2 bytes a pixel, else 4
 };
 
 struct CaptureHeader {

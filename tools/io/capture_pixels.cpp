@@ -83,7 +83,8 @@ void check_other_side(ViewImage& image) {
         c.a = image.colour[p].a;
         const bool ok = (n.w == 0 || n.w == 1) && n.w <= c.a && unit(c.r) && unit(c.g) && unit(c.b) &&
                         std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z);
-        if (!ok) throw std::runtime_error("part " + part_name(image.view) + " holds values that no capture has");
+        if (!ok)
+            throw std::runtime_error("part " + part_name(image.view) + " holds values that no capture has");
     }
 }
 
@@ -119,7 +120,8 @@ ViewImage read_part(const InputFile& file, int n, const PartHeader& part,
     image.depth.resize(pixels);
     image.colour.resize(pixels);
     image.normal.resize(pixels);
-    if (part.half.size() == both_channel_count) image.other_colour.resize(pixels), image.other_normal.resize(pixels);
+    if (part.half.size() == both_channel_count)
+        image.other_colour.resize(pixels), image.other_normal.resize(pixels);
     const auto targets = targets_in(image);
     const int lines = exr::lines_per_chunk(part.compression);
     tbb::parallel_for(std::size_t(0), chunks.size(), [&](std::size_t c) {

@@ -1,5 +1,5 @@
-// .glb and .gltf by tinygltf: the shown scene with its transforms as level 0, the nodes that MSFT_lod names as further
-// levels.
+// .glb and .gltf by tinygltf: the shown scene with its transforms as level 0, the nodes that MSFT_lod names
+// as further levels.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -51,7 +51,8 @@ void add_triangles(Mesh& mesh, int mode, std::size_t count,
     case TINYGLTF_MODE_TRIANGLE_STRIP:
         for (std::size_t k = 0; k + 2 < count; ++k) {
             const Triangle t{index(k), index(k + 1 + k % 2), index(k + 2 - k % 2)};
-            if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t); // others join two strips
+            if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+                mesh.triangles.push_back(t); // others join two strips
         }
         break;
     case TINYGLTF_MODE_TRIANGLE_FAN:
@@ -63,13 +64,14 @@ void add_triangles(Mesh& mesh, int mode, std::size_t count,
     }
 }
 
-/// What the levels of a file may hold together, vertices and triangles counted alike. Nodes, levels and primitives may
-/// share what is in the file, so that a small one can name much: within reason.
+/// What the levels of a file may hold together, vertices and triangles counted alike. Nodes, levels and
+/// primitives may share what is in the file, so that a small one can name much: within reason.
 class Budget {
   public:
     explicit Budget(std::size_t bytes) : left(100'000 + 8 * bytes) {}
     void take(std::size_t count) {
-        if (count > left) refuse("makes more vertices and triangles of its bytes than is read: 100,000 and 8 a byte");
+        if (count > left)
+            refuse("makes more vertices and triangles of its bytes than is read: 100,000 and 8 a byte");
         left -= count;
     }
 
@@ -143,7 +145,8 @@ class GlbReader {
     }
 
     /// Of the accessor that `extras` names, no more than there are vertices.
-    std::optional<std::vector<std::uint32_t>> numbers(const Value& extras, const char* name, const Mesh& mesh) const {
+    std::optional<std::vector<std::uint32_t>> numbers(const Value& extras, const char* name,
+                                                      const Mesh& mesh) const {
         const double accessor = number_in(extras, name, -1);
         if (!(accessor >= 0 && accessor < double(model.accessors.size()))) return {};
         const Elements elements(model, int(accessor));
@@ -228,8 +231,8 @@ class GlbReader {
     std::vector<bool> visited;
     TextureReader* textures = nullptr; ///< of the level that is read
     CopyJoiner copies;                 ///< likewise
-    bool normals = true;  ///< every primitive of the level has them
-    bool colours = false; ///< one has
+    bool normals = true;               ///< every primitive of the level has them
+    bool colours = false;              ///< one has
 };
 
 /// The nodes that MSFT_lod puts behind the only node of the scene.
@@ -244,15 +247,16 @@ std::vector<int> further_levels(const Model& model, const std::vector<int>& show
     for (std::size_t k = 0; k < ids.ArrayLen(); ++k) {
         const Value& id = ids.Get(int(k));
         const double number = id.IsNumber() ? id.GetNumberAsDouble() : -1;
-        if (!(number >= 0 && number < double(model.nodes.size()))) refuse("refers to a node that is not there");
+        if (!(number >= 0 && number < double(model.nodes.size())))
+            refuse("refers to a node that is not there");
         nodes.push_back(int(number));
         if (!named.insert(nodes.back()).second) refuse("names a level twice");
     }
     return nodes;
 }
 
-/// The nodes of the scene that is to be shown: that which the file says, else the first, else all that are nobody's
-/// children.
+/// The nodes of the scene that is to be shown: that which the file says, else the first, else all that are
+/// nobody's children.
 std::vector<int> shown_nodes(const Model& model) {
     if (!model.scenes.empty()) return at(model.scenes, std::max(model.defaultScene, 0), "a scene").nodes;
     std::vector<bool> is_child(model.nodes.size(), false);

@@ -269,10 +269,12 @@ int GlbBuilder::textured_material(const std::string& name, const Pngs& pngs) {
 
 /// Of a plain colour, which no COLOR_0 stands beside: viewers would multiply the two.
 int GlbBuilder::coloured_material(const glm::vec3& colour) {
-    const auto [found, is_new] = coloured.try_emplace({colour.x, colour.y, colour.z}, int(model.materials.size()));
+    const auto [found, is_new] =
+        coloured.try_emplace({colour.x, colour.y, colour.z}, int(model.materials.size()));
     if (!is_new) return found->second;
     tinygltf::Material material = matt(material_name(colour));
-    material.pbrMetallicRoughness.baseColorFactor = {to_linear(colour.x), to_linear(colour.y), to_linear(colour.z), 1};
+    material.pbrMetallicRoughness.baseColorFactor = {to_linear(colour.x), to_linear(colour.y),
+                                                     to_linear(colour.z), 1};
     model.materials.push_back(material);
     return found->second;
 }
@@ -298,7 +300,8 @@ Wedges shown_wedges(const Level& level, bool with_colours) {
 }
 
 /// `colours`: none, or one.
-void GlbBuilder::add_whole(const Level& level, const FaceColours& colours, const Pngs& pngs, tinygltf::Mesh& mesh) {
+void GlbBuilder::add_whole(const Level& level, const FaceColours& colours, const Pngs& pngs,
+                           tinygltf::Mesh& mesh) {
     const bool textured = !level.texture.empty(), by_vertex = !textured && colours.empty();
     CornerSplit split = split_corners(level.mesh, level.texture, shown_wedges(level, by_vertex));
     Mesh moved;
@@ -340,7 +343,8 @@ void GlbBuilder::add_parts(const Level& level, const FaceColours& colours, tinyg
         for (std::size_t v = 0; v < split.vertices(part.mesh); ++v)
             vertices.push_back(part.vertices[order[split.original(part.mesh, v)]]);
     }
-    mesh.extras.Get<Value::Object>()["vertices"] = Value(add_indices(vertices, level.mesh.positions.size(), no_target));
+    mesh.extras.Get<Value::Object>()["vertices"] =
+        Value(add_indices(vertices, level.mesh.positions.size(), no_target));
 }
 
 void GlbBuilder::add_level(const Level& level, const Pngs& pngs) {

@@ -78,7 +78,8 @@ std::string moved_by(const glm::dvec3& from) {
 }
 
 bool floats_hold(const Mesh& mesh) {
-    return std::ranges::all_of(mesh.positions, [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; });
+    return std::ranges::all_of(mesh.positions,
+                               [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; });
 }
 
 // IEC 61966-2-1
@@ -116,7 +117,8 @@ const Format& format_of(const std::filesystem::path& path) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const Format& f : formats)
         if (extension == f.extension) return f;
-    format::refuse("the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf or .gltf (to read)");
+    format::refuse(
+        "the format is told by the extension: .glb, .obj, .ply, .off, .stl, .3mf or .gltf (to read)");
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -239,7 +241,8 @@ std::string note_on(const std::filesystem::path& path, const Level& level) {
     const Format& f = format_of(path);
     if (f.write == format::write_obj || f.write == format::write_off) {
         const bool textured = !level.texture.empty() && f.write == format::write_obj;
-        if (textured || level.wedges.colours.empty() || (f.write == format::write_obj && !face_colours(level).empty()))
+        if (textured || level.wedges.colours.empty() ||
+            (f.write == format::write_obj && !face_colours(level).empty()))
             return {};
         return path.string() + ": a vertex has one colour in " + f.extension +
                ": where several meet, that of its largest side; " +
@@ -251,7 +254,9 @@ std::string note_on(const std::filesystem::path& path, const Level& level) {
            ", as floats would lose its digits where it is";
 }
 
-std::uint64_t glb_size(const Level& level) { return format::glb_bytes({&level, 1}, Compression::none).size(); }
+std::uint64_t glb_size(const Level& level) {
+    return format::glb_bytes({&level, 1}, Compression::none).size();
+}
 
 void hold_in_floats(Mesh& mesh) {
     if (format::needs_doubles(mesh)) return;
@@ -270,8 +275,8 @@ void round_levels(std::span<Level> levels, Compression compression) {
     for (Level& level : levels) format::round_level(level, grid);
 }
 
-std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path, std::span<const Level> levels,
-                                                const WriteOptions& options) {
+std::vector<std::filesystem::path> write_levels(const std::filesystem::path& path,
+                                                std::span<const Level> levels, const WriteOptions& options) {
     const Format& f = format_of(path);
     if (!f.many_levels && (options.one_file || options.compression != Compression::none))
         format::refuse("only .glb is compressed, or holds several levels");
@@ -282,7 +287,8 @@ std::vector<std::filesystem::path> write_levels(const std::filesystem::path& pat
     else if (f.many_levels)
         write_glbs(files, path, levels, options.compression);
     else
-        for (std::size_t k = 0; k < levels.size(); ++k) f.write(files, level_path(path, k), levels[k], options);
+        for (std::size_t k = 0; k < levels.size(); ++k)
+            f.write(files, level_path(path, k), levels[k], options);
     return files.commit();
 }
 

@@ -20,9 +20,9 @@ Mesh reorder_for_drawing(const Mesh& mesh, CornerSplit& split, std::vector<std::
 /// extension is required.
 std::string meshopt_compressed(std::string_view file);
 
-/// The other way: leaves in `gltf` a description with views of one buffer, 0, which it returns. Needs what the
-/// extension's specification says. Throws std::runtime_error on damage, and before it takes more memory than the
-/// compressed bytes can explain.
+/// The other way: leaves in `gltf` a description with views of one buffer, 0, which it returns. Needs what
+/// the extension's specification says. Throws std::runtime_error on damage, and before it takes more memory
+/// than the compressed bytes can explain.
 std::string meshopt_decompressed(nlohmann::ordered_json& gltf, const std::vector<std::string_view>& buffers);
 
 } // namespace glcast::format

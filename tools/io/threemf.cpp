@@ -1,4 +1,5 @@
-// 3D Manufacturing Format (.3mf), written by lib3mf: one object with its unit, and a colour group for the colours of its corners.
+// 3D Manufacturing Format (.3mf), written by lib3mf: one object with its unit, and a colour group for the
+// colours of its corners.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -24,7 +25,9 @@ void require(LIB3MFRESULT result) { format::require(result, "lib3mf cannot make 
 std::size_t unit_for(const Mesh& mesh, std::size_t asked) {
     const double size = diagonal(mesh) * length_units[asked].millimetres;
     for (const std::size_t unit : {asked, millimetre, std::size_t(0)})
-        if (size >= length_units[unit].millimetres && length_units[unit].millimetres <= length_units[asked].millimetres) return unit;
+        if (size >= length_units[unit].millimetres &&
+            length_units[unit].millimetres <= length_units[asked].millimetres)
+            return unit;
     return 0;
 }
 
@@ -41,7 +44,9 @@ void add_geometry(PLib3MFBase* object, const Mesh& mesh, const glm::dvec3& from,
 }
 
 MODELMESHCOLOR_SRGB bytes_of(const glm::vec3& colour) {
-    const auto channel = [](float value) { return static_cast<BYTE>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); };
+    const auto channel = [](float value) {
+        return static_cast<BYTE>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
+    };
     return {channel(colour.x), channel(colour.y), channel(colour.z), 255};
 }
 
@@ -61,7 +66,8 @@ void add_colours(PLib3MFBase* object, const Level& level) {
 }
 
 /// So that the same model makes the same file: lib3mf would take them at random.
-constexpr const char *object_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617301", *item_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617302",
+constexpr const char *object_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617301",
+                     *item_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617302",
                      *build_uuid = "6b1d9c1e-6c67-4a51-8d7c-676c63617303";
 
 std::vector<BYTE> bytes_of_model(PLib3MFBase* model) {
@@ -76,7 +82,8 @@ std::vector<BYTE> bytes_of_model(PLib3MFBase* model) {
 
 } // namespace
 
-bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& level, const WriteOptions& options) {
+bool write_3mf(FileSet& files, const std::filesystem::path& path, const Level& level,
+               const WriteOptions& options) {
     const std::size_t unit = unit_for(level.mesh, options.units);
     const double scale = length_units[options.units].millimetres / length_units[unit].millimetres;
     const glm::dvec3 from = origin_of_floats(level.mesh);

@@ -142,8 +142,9 @@ void Run::add_counted() {
 void Run::add_sized(const std::vector<double>& pixels) {
     simplification = std::make_unique<Simplification>(
         full.mesh, SimplifyOptions{.refit = options.progressive.empty(), .checked = &full_check});
-    search = std::make_unique<LevelSearch>(*simplification, *meter, full.mesh.triangles.size(),
-                                           [this](Mesh&& mesh, bool outlines) { return shaped(std::move(mesh), outlines); });
+    search = std::make_unique<LevelSearch>(
+        *simplification, *meter, full.mesh.triangles.size(),
+        [this](Mesh&& mesh, bool outlines) { return shaped(std::move(mesh), outlines); });
     std::vector<double> widths = pixels;
     std::vector<SizedLimit> limits;
     std::sort(widths.begin(), widths.end(), std::greater<>());
@@ -152,8 +153,10 @@ void Run::add_sized(const std::vector<double>& pixels) {
     tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t k) { colour(found[k].level); });
     for (std::size_t k = 0; k < found.size(); ++k) {
         found[k].level.pixels = widths[k];
-        drafts.push_back(
-            {std::move(found[k].level), {"--pixels " + text_of(widths[k]), true}, found[k].count, limits[k].p999});
+        drafts.push_back({std::move(found[k].level),
+                          {"--pixels " + text_of(widths[k]), true},
+                          found[k].count,
+                          limits[k].p999});
     }
     if (!options.progressive.empty()) bind_to_progressive_mesh();
 }

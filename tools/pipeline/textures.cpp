@@ -24,7 +24,8 @@ constexpr double visible = 0.007;
 constexpr double hardly_worse = 1.1; // times what the colours of corners are off
 
 // Texels average what is drawn: light of a mean normal is no mean of light, and in a small picture a texel
-// spans much that differs. Four instead of two a pixel bring geomview's t.off, at 32 pixels, from 37.8 to 43.8 dB.
+// spans much that differs. Four instead of two a pixel bring geomview's t.off, at 32 pixels, from 37.8
+// to 43.8 dB.
 constexpr double texels_a_pixel = 2, texels_of_small = 4, small_picture = 64;
 
 double squared_difference(const Shown& shown, const CapturedPoint& captured, float brightest) {
@@ -48,13 +49,14 @@ TextureReport bake(Level& level, const CapturedSurface& captured, TextureOptions
         }
 }
 
-/// A plain colour a triangle, where that shows it as well. Materials are what every reader shows; colours of vertices
-/// are left out by Blender 3.4 and Godot 3.2.
+/// A plain colour a triangle, where that shows it as well. Materials are what every reader shows; colours of
+/// vertices are left out by Blender 3.4 and Godot 3.2.
 bool take_materials(Level& level, const CapturedSurface& captured, TextureChoice::Kind kind) {
     Level plain = level;
     if (!take_patch_colours(plain)) return false;
     const double wrong = shown_error(plain, captured);
-    if (wrong > visible && (kind == TextureChoice::Kind::by_need || wrong > hardly_worse * shown_error(level, captured)))
+    if (wrong > visible &&
+        (kind == TextureChoice::Kind::by_need || wrong > hardly_worse * shown_error(level, captured)))
         return false;
     level = std::move(plain);
     return true;
@@ -67,7 +69,8 @@ bool has_vertex_a_sample(const Level& level) {
         const glm::dvec3& a = level.mesh.positions[t[0]];
         area += glm::length(glm::cross(level.mesh.positions[t[1]] - a, level.mesh.positions[t[2]] - a)) / 2;
     }
-    return level.sample > 0 && 2 * double(level.mesh.positions.size()) >= area / (level.sample * level.sample);
+    return level.sample > 0 &&
+           2 * double(level.mesh.positions.size()) >= area / (level.sample * level.sample);
 }
 
 } // namespace
@@ -96,7 +99,8 @@ std::optional<TextureReport> texture_level(Level& level, const CapturedSurface& 
     using Kind = TextureChoice::Kind;
     if (choice.kind != Kind::sized && take_materials(level, captured, choice.kind)) return {};
     if (choice.kind == Kind::none) return {};
-    if (choice.kind == Kind::by_need && has_vertex_a_sample(level) && shown_error(level, captured) <= visible) return {};
+    if (choice.kind == Kind::by_need && has_vertex_a_sample(level) && shown_error(level, captured) <= visible)
+        return {};
     TextureOptions options;
     if (choice.kind == Kind::by_need) {
         options.size = largest_texture / 2;

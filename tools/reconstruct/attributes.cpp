@@ -12,12 +12,12 @@
 namespace glcast {
 namespace {
 
-constexpr float agreement = 0.3f;        // samples between a vertex and the plane that a pixel saw
-constexpr double reach = 8;              // samples along a ray to a hit that may still agree
-constexpr float same_place = 1e-3f;      // samples: hits of the two sides of a sheet
-constexpr float same_facet = 0.9f;       // cosine between normals of pixels that may be mixed
-constexpr double reach_of_closing = 2;   // samples between a vertex and the closing that it belongs to
-constexpr float disagreement = 0.5f;     // cosine, 60 degrees: no shading of coarse facets bends normals so far
+constexpr float agreement = 0.3f;      // samples between a vertex and the plane that a pixel saw
+constexpr double reach = 8;            // samples along a ray to a hit that may still agree
+constexpr float same_place = 1e-3f;    // samples: hits of the two sides of a sheet
+constexpr float same_facet = 0.9f;     // cosine between normals of pixels that may be mixed
+constexpr double reach_of_closing = 2; // samples between a vertex and the closing that it belongs to
+constexpr float disagreement = 0.5f;   // cosine, 60 degrees: no shading of coarse facets bends normals so far
 constexpr float square_agreement = 1.5f; // samples between a square and its pixel's depth
 
 struct Pixel {
@@ -172,7 +172,8 @@ Attribute behind_closing(const Rays& rays, const glm::dvec3& at, const glm::vec3
     if (!there) return {};
     const AxisHits& hits = rays.axis[there.axis];
     const int side = surface_normal[there.axis] > 0;
-    return {unpack_colour(hits.colour_to(side, there.hit)), drawn_normal(hits, side, there.hit), surface_normal, true};
+    return {unpack_colour(hits.colour_to(side, there.hit)), drawn_normal(hits, side, there.hit),
+            surface_normal, true};
 }
 
 std::array<std::uint32_t, 4> square_corners(const Triangle& s, const Triangle& t) {
@@ -245,7 +246,8 @@ Sampled sample_vertices(const Rays& rays, Mesh& mesh, bool geometric_normals) {
             if (!seen) found = behind_closing(rays, mesh.positions[v], mesh.normals[v]);
             if (!found.found) continue;
             known[v] = seen ? 1 : 2;
-            disagree[v] = seen && found.normal != glm::vec3(0) && glm::dot(found.normal, found.plane) < disagreement;
+            disagree[v] =
+                seen && found.normal != glm::vec3(0) && glm::dot(found.normal, found.plane) < disagreement;
             mesh.colours[v] = found.colour;
             if (!geometric_normals && found.normal != glm::vec3(0)) mesh.normals[v] = found.normal;
         }

@@ -51,23 +51,27 @@ Volume together(const Volume& a, const Volume& b) {
     });
 }
 
-/// Of free space about each eye the nearest sample that `is_wanted`, a few steps away at most, no wall between.
+/// Of free space about each eye the nearest sample that `is_wanted`, a few steps away at most, no wall
+/// between.
 template <class IsWanted>
-std::vector<SampleId> nearest(const Rays& rays, std::span<const SampleId> eyes, int most, IsWanted is_wanted) {
+std::vector<SampleId> nearest(const Rays& rays, std::span<const SampleId> eyes, int most,
+                              IsWanted is_wanted) {
     std::vector<SampleId> out;
     for (const SampleId eye : eyes) {
         std::pair<int, SampleId> best{most + 1, 0};
-        flood(rays, {eye}, 0, most, [](const auto&, SampleId) { return true; })
-            .for_each([&](SampleId id, int steps) {
-                if (is_wanted(sample_of(id, rays.n))) best = std::min(best, {steps, id});
-            });
+        flood(rays, {eye}, 0, most, [](const auto&, SampleId) {
+            return true;
+        }).for_each([&](SampleId id, int steps) {
+            if (is_wanted(sample_of(id, rays.n))) best = std::min(best, {steps, id});
+        });
         if (best.first <= most) out.push_back(best.second);
     }
     return out;
 }
 
 /// `open` without what is out of sight, but for where one of the eyes stands.
-Volume in_sight(const Rays& rays, const SliceHits& along_z, const Volume& open, std::span<const SampleId> eyes) {
+Volume in_sight(const Rays& rays, const SliceHits& along_z, const Volume& open,
+                std::span<const SampleId> eyes) {
     auto sight = find_sight(open);
     if (!sight) return open;
     Volume seen = without_hidden(rays, along_z, open, *sight);

@@ -16,9 +16,9 @@ struct Exterior {
 /// Needs complete layers. Outside is what free space reaches from the border of the box through passages
 /// wider than 2 `close_gaps` + 1 samples and what can be seen from far away (sight.h). 0 keeps every passage.
 ///
-/// `eyes`: samples from which something is seen from within. The free space in which one of them stands is outside too, all
-/// of it where nothing joins it to the border, and else the chamber that it stands in. Where it is outside anyway, nothing
-/// changes.
+/// `eyes`: samples from which something is seen from within. The free space in which one of them stands is
+/// outside too, all of it where nothing joins it to the border, and else the chamber that it stands in. Where
+/// it is outside anyway, nothing changes.
 Exterior find_exterior(const Rays& rays, double close_gaps, std::span<const SampleId> eyes = {});
 
 } // namespace glcast

@@ -23,8 +23,8 @@ struct AxisHits {
     std::vector<std::uint32_t> normal; ///< as drawn, packed; 0 none
     std::vector<std::uint32_t> colour; ///< as drawn, pack_colour; the top two bits: sides.h
 
-    /// In captures of both sides `normal` and `colour` are what a viewer on the minus side sees, and these are a
-    /// viewer's on the plus side. Else empty: both see the same.
+    /// In captures of both sides `normal` and `colour` are what a viewer on the minus side sees, and these
+    /// are a viewer's on the plus side. Else empty: both see the same.
     std::vector<std::uint32_t> plus_normal, plus_colour;
 
     /// To a viewer on `side` (1: plus).

@@ -40,7 +40,8 @@ void to_capture_frame(Mesh& mesh, const CaptureFrame& frame) {
 }
 
 /// The samples nearest to places in the box.
-std::vector<SampleId> samples_of(const std::vector<glm::dvec3>& places, const CaptureFrame& frame, const Rays& rays) {
+std::vector<SampleId> samples_of(const std::vector<glm::dvec3>& places, const CaptureFrame& frame,
+                                 const Rays& rays) {
     std::vector<SampleId> samples;
     for (const glm::dvec3& place : places) {
         const glm::dvec3 at = glm::round(frame.samples(place));
@@ -53,7 +54,8 @@ std::vector<SampleId> samples_of(const std::vector<glm::dvec3>& places, const Ca
 }
 
 /// Fills the rays' volume by the rule that can be followed.
-void carve(Rays& rays, const CaptureFrame& frame, const ReconstructOptions& options, ReconstructReport& made) {
+void carve(Rays& rays, const CaptureFrame& frame, const ReconstructOptions& options,
+           ReconstructReport& made) {
     if (options.exterior == ExteriorRule::layers && options.complete_layers) {
         Exterior found = find_exterior(rays, options.close_gaps, samples_of(options.eyes, frame, rays));
         made.exterior = ExteriorRule::layers;

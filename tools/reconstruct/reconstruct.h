@@ -32,8 +32,9 @@ struct ReconstructOptions {
     double close_gaps = 1; ///< radius in samples: passages up to 2 r + 1 wide are closed; 0 keeps every gap
     double sheet_thickness = 0.1;   ///< samples, 0.01..1: between the sides of a surface without thickness
     bool geometric_normals = false; ///< recompute normals from the surface instead of those drawn
-    /// Places in free space, capture frame, from which the inside of something is seen: the program's own eye, and what it
-    /// sees through culled faces. Those outside of the box, or in space that counts as outside anyway, change nothing.
+    /// Places in free space, capture frame, from which the inside of something is seen: the program's own
+    /// eye, and what it sees through culled faces. Those outside of the box, or in space that counts as
+    /// outside anyway, change nothing.
     std::vector<glm::dvec3> eyes = {};
 };
 
@@ -47,8 +48,8 @@ struct ReconstructReport {
     double unsupported_area_share = 0;     ///< of the surface's area, what lies about such crossings
     std::size_t vertices_without_pixel =
         0; ///< colour of a neighbour on the surface, normal of the surface itself, or those behind a closing
-    /// Of the surface's area: where the normal that was drawn is more than 60 degrees off the surface that was
-    /// drawn. What is lit by such normals looks right in the program's own light alone. 0 for cubes.
+    /// Of the surface's area: where the normal that was drawn is more than 60 degrees off the surface that
+    /// was drawn. What is lit by such normals looks right in the program's own light alone. 0 for cubes.
     double disagreeing_normals_share = 0;
     MendReport mended;
     double carve_seconds = 0, surface_seconds = 0, attribute_seconds = 0;

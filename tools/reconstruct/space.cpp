@@ -145,7 +145,8 @@ Word reached(const Window& in, const Walls& walls, int y, std::size_t w) {
 }
 
 std::optional<std::uint32_t> run_of(const Volume& space, const std::array<int, 3>& s) {
-    for (std::uint32_t i = space.start[space.row(s[1], s[2])]; i < space.start[space.row(s[1], s[2]) + 1]; ++i)
+    for (std::uint32_t i = space.start[space.row(s[1], s[2])]; i < space.start[space.row(s[1], s[2]) + 1];
+         ++i)
         if (space.runs[i].first <= s[0] && s[0] <= space.runs[i].last) return i;
     return std::nullopt;
 }
@@ -199,8 +200,8 @@ Volume wide_space(const Rays& rays, const SliceHits& along_z, int radius) {
     return Volume(n, slices);
 }
 
-std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z, const Volume& space, int radius,
-                                      std::span<const SampleId> eyes) {
+std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z, const Volume& space,
+                                      int radius, std::span<const SampleId> eyes) {
     const int n = rays.n;
     Sets sets(space.runs.size());
     const auto join_slice = [&](int z, const Walls* walls, bool within) {
@@ -232,7 +233,8 @@ std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z
         for (int y = 0; y < n; ++y)
             for (std::uint32_t i = space.start[space.row(y, z)]; i < space.start[space.row(y, z) + 1]; ++i) {
                 const bool edge = !y || !z || y == n - 1 || z == n - 1;
-                if (edge || !space.runs[i].first || space.runs[i].last == n - 1) of_root[sets.find(i)] = with_border;
+                if (edge || !space.runs[i].first || space.runs[i].last == n - 1)
+                    of_root[sets.find(i)] = with_border;
             }
     for (const SampleId eye : eyes)
         if (const auto i = run_of(space, sample_of(eye, n)); i && !of_root[sets.find(*i)])

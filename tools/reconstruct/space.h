@@ -16,10 +16,10 @@ enum Connected : std::uint8_t {
     with_eye,    ///< and not with the border
 };
 
-/// By run. Runs of `space` on two rows are joined where they overlap and, when `radius` is 0, no wall divides them
-/// there. `eyes`: samples of the space.
-std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z, const Volume& space, int radius,
-                                      std::span<const SampleId> eyes);
+/// By run. Runs of `space` on two rows are joined where they overlap and, when `radius` is 0, no wall divides
+/// them there. `eyes`: samples of the space.
+std::vector<std::uint8_t> connections(const Rays& rays, const SliceHits& along_z, const Volume& space,
+                                      int radius, std::span<const SampleId> eyes);
 
 /// The runs that have the mark.
 Volume marked_runs(const Volume& space, std::span<const std::uint8_t> marks, std::uint8_t mark);

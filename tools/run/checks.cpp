@@ -50,7 +50,8 @@ template <class Header, class Segment> bool has_loader(std::ifstream& file) {
     for (int i = 0; file && i < header.e_phnum; ++i) {
         Segment segment{};
         file.seekg(static_cast<std::streamoff>(header.e_phoff + std::uint64_t(i) * header.e_phentsize));
-        if (file.read(reinterpret_cast<char*>(&segment), sizeof segment) && segment.p_type == PT_INTERP) return true;
+        if (file.read(reinterpret_cast<char*>(&segment), sizeof segment) && segment.p_type == PT_INTERP)
+            return true;
     }
     return false;
 }
@@ -58,7 +59,9 @@ template <class Header, class Segment> bool has_loader(std::ifstream& file) {
 /// Of our machine's kind: a program, or a script's interpreter.
 Elf32_Ehdr read_ident(std::istream& file) {
     Elf32_Ehdr header{}; // e_machine lies at one place in both widths
-    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
+    if (!file.read(reinterpret_cast<char*>(&header), sizeof header) ||
+        std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0)
+        return {};
     return header;
 }
 
@@ -66,19 +69,26 @@ std::string check_elf(std::ifstream& file, const std::string& name, const Librar
     file.clear();
     file.seekg(0);
     const Elf32_Ehdr header = read_ident(file);
-    if (header.e_ident[EI_MAG0] == 0) return name + " is neither a program nor a script that names its interpreter";
+    if (header.e_ident[EI_MAG0] == 0)
+        return name + " is neither a program nor a script that names its interpreter";
     std::ifstream self("/proc/self/exe", std::ios::binary);
     const Elf32_Ehdr ours = read_ident(self);
-    const bool same = header.e_ident[EI_CLASS] == ours.e_ident[EI_CLASS] && header.e_machine == ours.e_machine;
+    const bool same =
+        header.e_ident[EI_CLASS] == ours.e_ident[EI_CLASS] && header.e_machine == ours.e_machine;
     const bool smaller = header.e_machine == EM_386 && ours.e_machine == EM_X86_64;
     if (!same && !smaller)
-        return name + " is for another kind of processor than this glcast, so the library cannot be preloaded";
+        return name +
+               " is for another kind of processor than this glcast, so the library cannot be preloaded";
     if (smaller && library.other.empty())
-        return name + " is a 32-bit program, and the library for those is not there (lib/i386-linux-gnu/glcast/libglcast.so): "
-                      "install the package libglcast0:i386, or g++-multilib and lib32z1-dev before glcast is built";
-    if (header.e_ident[EI_CLASS] == ELFCLASS32 ? has_loader<Elf32_Ehdr, Elf32_Phdr>(file) : has_loader<Elf64_Ehdr, Elf64_Phdr>(file))
+        return name +
+               " is a 32-bit program, and the library for those is not there "
+               "(lib/i386-linux-gnu/glcast/libglcast.so): "
+               "install the package libglcast0:i386, or g++-multilib and lib32z1-dev before glcast is built";
+    if (header.e_ident[EI_CLASS] == ELFCLASS32 ? has_loader<Elf32_Ehdr, Elf32_Phdr>(file)
+                                               : has_loader<Elf64_Ehdr, Elf64_Phdr>(file))
         return {};
-    return name + " is linked statically: it has no loader that could preload a library, so it cannot be cast";
+    return name +
+           " is linked statically: it has no loader that could preload a library, so it cannot be cast";
 }
 
 } // namespace
@@ -94,8 +104,8 @@ std::string check_output(const fs::path& file) {
     if (fs::exists(file, ignored) && access(file.c_str(), W_OK) != 0) {
         return "cannot write " + file.string() + ": " + reason(errno);
     }
-    // Permission bits do not tell the truth to root nor on a read-only file system, so try: without a name where that can be
-    // done, so that nothing is left when we are killed meanwhile.
+    // Permission bits do not tell the truth to root nor on a read-only file system, so try: without a name
+    // where that can be done, so that nothing is left when we are killed meanwhile.
     return why_not_writable(file);
 }
 

@@ -65,8 +65,8 @@ std::string compose_preload(const Library& library, const fs::path& scratch) {
     return library.preload(scratch) + (others != nullptr && *others != '\0' ? ":" + std::string(others) : "");
 }
 
-Environment environment(const Options& options, const std::string& capture, const StatusPipe& pipe, const Library& library,
-                        const Display& display) {
+Environment environment(const Options& options, const std::string& capture, const StatusPipe& pipe,
+                        const Library& library, const Display& display) {
     Environment changes = shim_variables(options, capture, pipe.path());
     changes.emplace_back("LD_PRELOAD", compose_preload(library, pipe.scratch()));
     if (options.headless) {
@@ -104,7 +104,8 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
     ProgressLine line;
     for (;;) {
         line.show(seen);
-        const bool waiting = !seen.finished(options.captures); // the time limit is for the cast, not for the program
+        const bool waiting =
+            !seen.finished(options.captures); // the time limit is for the cast, not for the program
         pollfd events[] = {{pipe.file_descriptor(), POLLIN, 0}, {signals, POLLIN, 0}};
         const int ready = poll(events, 2, waiting ? poll_timeout(options, started) : -1);
         if (const int signal = read_signals(signals)) {
@@ -163,7 +164,8 @@ std::string find_obstacle(const Program& program, const Library& library) {
 int report(const Options& options, const Seen& seen, const MeshStep* meshes, const std::string& ending) {
     if (options.list && seen.listed) return report_list(options, seen);
     if (seen.captures.empty()) return fail(describe_failure(seen, ending));
-    return meshes != nullptr ? report_meshes(options, seen, *meshes, ending) : report_captures(options, seen, ending);
+    return meshes != nullptr ? report_meshes(options, seen, *meshes, ending)
+                             : report_captures(options, seen, ending);
 }
 
 int run(const Options& options) {
@@ -171,8 +173,10 @@ int run(const Options& options) {
     const fs::path program_file = find_program(options.program[0]), glcast = find_glcast();
     const Library library = find_library();
     const bool makes_mesh = options.makes_mesh && !options.list;
-    if (makes_mesh && glcast.empty()) return fail("cannot find glcast beside glcast-run, which makes the mesh");
-    if (const Trouble trouble = check_program_and_shim(options, program_file, library); !trouble.why.empty()) {
+    if (makes_mesh && glcast.empty())
+        return fail("cannot find glcast beside glcast-run, which makes the mesh");
+    if (const Trouble trouble = check_program_and_shim(options, program_file, library);
+        !trouble.why.empty()) {
         return fail(trouble.why);
     }
     const int signals = take_signals();
@@ -180,10 +184,12 @@ int run(const Options& options) {
     if (!pipe.ok()) {
         return fail("cannot make a pipe in the folder for temporary files");
     }
-    const std::string capture = makes_mesh ? capture_pattern(options, pipe.scratch()).string() : options.output;
+    const std::string capture =
+        makes_mesh ? capture_pattern(options, pipe.scratch()).string() : options.output;
     std::optional<MeshStep> meshes;
     if (makes_mesh) meshes.emplace(options, glcast, pipe.scratch());
-    if (const Trouble trouble = check_outputs(options, capture, meshes ? &*meshes : nullptr); !trouble.why.empty()) {
+    if (const Trouble trouble = check_outputs(options, capture, meshes ? &*meshes : nullptr);
+        !trouble.why.empty()) {
         fail(trouble.why);
         return trouble.status;
     }
@@ -209,7 +215,8 @@ int run(const Options& options) {
             meshes->take(seen);
             meshes->advance(program);
         }
-        if (!meshes && !result && seen.finished(options.captures)) result = report(options, seen, nullptr, "");
+        if (!meshes && !result && seen.finished(options.captures))
+            result = report(options, seen, nullptr, "");
     });
     if (principal(seen).api.empty()) {
         ending += find_obstacle(program, library);

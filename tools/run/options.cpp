@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -56,7 +56,9 @@ std::string check_box(const std::string& text) {
         far = std::max({far, -(*v)[axis], (*v)[axis + 3]});
     }
     // The same bounds as in shim/preload/options.cpp: GL works in floats.
-    return far > 1e30 || edge < far * 1e-6 ? "no number may be beyond 1e30, and the corners a millionth of that apart" : "";
+    return far > 1e30 || edge < far * 1e-6
+               ? "no number may be beyond 1e30, and the corners a millionth of that apart"
+               : "";
 }
 
 /// Rotation, uniform scale and translation only: anything else would bend the normals and the lattice.
@@ -98,7 +100,9 @@ std::string check_key(const std::string& text) {
 }
 
 std::string check_signal(const std::string& text) {
-    return signal_number(text) != 0 ? "" : "needs a signal that does not end programs, like USR1 or RTMIN+1, not " + text;
+    return signal_number(text) != 0
+               ? ""
+               : "needs a signal that does not end programs, like USR1 or RTMIN+1, not " + text;
 }
 
 std::string in_digits(double value) {
@@ -113,7 +117,8 @@ CLI::Validator seconds_from(double least) {
         double value = 0;
         const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most_seconds;
         return good ? std::string()
-                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " + text;
+                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " +
+                          text;
     };
     return {check, "FLOAT in [" + in_digits(least) + " - " + in_digits(most_seconds) + "]"};
 }
@@ -154,13 +159,16 @@ void declare_mesh_options(CLI::App& app, Options& o) {
                 ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
                 ->group("Mesh");
         else
-            app.add_flag_callback(name, [&o, name] { o.mesh_arguments.push_back(name); }, text)->group("Mesh");
+            app.add_flag_callback(
+                   name, [&o, name] { o.mesh_arguments.push_back(name); }, text)
+                ->group("Mesh");
     }
 }
 
 void declare(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output,
-                   "Capture (.exr), or mesh to make of it (" + listed_mesh_endings() + "); default: PROGRAM.exr here")
+                   "Capture (.exr), or mesh to make of it (" + listed_mesh_endings() +
+                       "); default: PROGRAM.exr here")
         ->envname("GLCAST_OUT");
     app.add_option("-n,--resolution", o.n, "Samples along each axis")
         ->envname("GLCAST_N")
@@ -185,8 +193,9 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
         ->envname("GLCAST_EVERY")
         ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option("--captures", o.captures,
-                   "Cast so many frames (default: 1; with --every, --key and --signal no limit, but 1 with --quit)")
+    app.add_option(
+           "--captures", o.captures,
+           "Cast so many frames (default: 1; with --every, --key and --signal no limit, but 1 with --quit)")
         ->envname("GLCAST_CAPTURES")
         ->check(CLI::Range(1L, 1'000'000'000L));
     app.add_option("--normals", o.normals,
@@ -210,9 +219,10 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--group", o.group, "Cast group K of --list (default: the one with most triangles)")
         ->envname("GLCAST_GROUP")
         ->check(CLI::Range(1, 1'000'000));
-    app.add_option("--window", o.window,
-                   "Cast this window alone: its number or title in --list, or its X id, 0x...; default: the one "
-                   "that shows most")
+    app.add_option(
+           "--window", o.window,
+           "Cast this window alone: its number or title in --list, or its X id, 0x...; default: the one "
+           "that shows most")
         ->envname("GLCAST_WINDOW");
     app.add_flag("--list", o.list,
                  "Print the groups of the frame instead of casting it, then end the program; "
@@ -222,15 +232,18 @@ void declare(CLI::App& app, Options& o) {
         ->envname("GLCAST_INCLUDE")
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
     app.add_option("--transparent", o.transparent,
-                   "What is blended: keep or skip all of it (default: keep it where half or less of what is behind shows)")
+                   "What is blended: keep or skip all of it (default: keep it where half or less of what is "
+                   "behind shows)")
         ->envname("GLCAST_TRANSPARENT")
         ->check(CLI::IsMember({"keep", "skip"}));
     app.add_option("--backdrop", o.backdrop,
-                   "keep: cast skies, pictures behind the scene and outlines too (default: left out, with a line that says so)")
+                   "keep: cast skies, pictures behind the scene and outlines too (default: left out, with a "
+                   "line that says so)")
         ->envname("GLCAST_BACKDROP")
         ->check(CLI::IsMember({"keep"}));
-    app.add_option("--fov", o.view_angle,
-                   "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
+    app.add_option(
+           "--fov", o.view_angle,
+           "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
         ->envname("GLCAST_FOV")
         ->check(CLI::Range(0.001, 179.999));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
@@ -246,8 +259,9 @@ void declare(CLI::App& app, Options& o) {
         ->check(seconds_from(0.001));
     app.add_flag("--keep-capture", o.keep_capture, "Of a mesh: keep the capture too, beside it, as .exr");
     app.add_flag("--verbose", o.verbose, "Say also how, with figures");
-    app.add_flag("--json", o.json,
-                 "Print one JSON object on standard output; what PROGRAM prints there goes to standard error");
+    app.add_flag(
+        "--json", o.json,
+        "Print one JSON object on standard output; what PROGRAM prints there goes to standard error");
     app.set_version_flag("--version", "glcast-run " GLCAST_VERSION);
     declare_mesh_options(app, o);
     app.footer("Exit status: 0 cast, 1 not cast (one line says why), 2 wrong usage.");
@@ -280,9 +294,9 @@ std::string settle_mesh(Options& o) {
 
 Parsed parse_options(int argc, const char* const* argv, Options& options) {
     const auto dashes = std::find(argv + std::min(argc, 1), argv + argc, std::string_view("--"));
-    CLI::App app(
-        "Run PROGRAM unchanged and cast one frame of what it draws with OpenGL: a capture (.exr), or a mesh made of it.",
-        "glcast-run");
+    CLI::App app("Run PROGRAM unchanged and cast one frame of what it draws with OpenGL: a capture (.exr), "
+                 "or a mesh made of it.",
+                 "glcast-run");
     declare(app, options);
     try {
         auto words = split_list_option(argv + std::min(argc, 1), dashes);
@@ -340,8 +354,7 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
     return Parsed::run;
 }
 
-std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o,
-                                                                const std::string& capture,
+std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o, const std::string& capture,
                                                                 const std::filesystem::path& status_pipe) {
     return {
         {"GLCAST_OUT", capture},
@@ -359,7 +372,9 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_FRAME_MATRIX", o.frame_matrix},
         {"GLCAST_WINDOW", o.window},
         {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},
-        {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture : o.list ? "1" : ""},
+        {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture
+                        : o.list                ? "1"
+                                                : ""},
         {"GLCAST_INCLUDE", o.include},
         {"GLCAST_TRANSPARENT", o.transparent},
         {"GLCAST_BACKDROP", o.backdrop},

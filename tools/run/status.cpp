@@ -15,7 +15,8 @@ namespace glcast::run {
 
 Drawing principal(const Seen& seen) {
     const auto key = [&](const auto& entry) {
-        return std::tuple(!entry.second.api.empty(), entry.second.frames, entry.first == seen.started, entry.second.order);
+        return std::tuple(!entry.second.api.empty(), entry.second.frames, entry.first == seen.started,
+                          entry.second.order);
     };
     const auto most = std::max_element(seen.drawings.begin(), seen.drawings.end(),
                                        [&](const auto& a, const auto& b) { return key(a) < key(b); });
@@ -27,7 +28,9 @@ namespace {
 long number(const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); }
 
 /// What follows the first word.
-std::string rest_of(const std::string& text) { return text.substr(std::min(text.find(' ') + 1, text.size())); }
+std::string rest_of(const std::string& text) {
+    return text.substr(std::min(text.find(' ') + 1, text.size()));
+}
 
 /// What a line tells of the drawing of its process, if it does.
 void take_drawing(const std::string& kind, const std::string& rest, const std::string& process, Seen& seen) {
@@ -83,7 +86,8 @@ void take_line(const std::string& line, Seen& seen) {
         {"group", [](const std::string& rest, Seen& s) { s.groups.push_back(rest); }},
         {"listed", [](const std::string&, Seen& s) { s.listed = true; }},
     };
-    const std::string head = line.substr(0, line.find(' ')), rest = line.substr(std::min(head.size() + 1, line.size()));
+    const std::string head = line.substr(0, line.find(' ')),
+                      rest = line.substr(std::min(head.size() + 1, line.size()));
     const std::string word = head.substr(0, head.find('@')),
                       process = head.substr(std::min(word.size() + 1, head.size()));
     if (word == "captured" || word == "recaptured" || word == "failed" || word == "listed") {
@@ -114,7 +118,8 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     const bool is_another = !seen.started.empty() && own->first != seen.started && !drawing.name.empty();
     const std::string where = is_another ? " in " + drawing.name : "";
     if (!drawing.waits.empty() && drawing.frames == 0) {
-        return drawing.api + " seen" + where + ", but " + drawing.waits + ", or no frame came after: " + ending;
+        return drawing.api + " seen" + where + ", but " + drawing.waits +
+               ", or no frame came after: " + ending;
     }
     const std::string refused =
         drawing.refused.empty() ? "" : " (a frame could not be recorded: " + drawing.refused + ")";
@@ -126,9 +131,10 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
         return drawing.api + " seen" + where + ", but no whole frame" + refused + ": " + ending +
                " (if it draws only when its window is touched, --nudge helps)";
     }
-    return std::to_string(drawing.frames) + (drawing.frames == 1 ? " frame" : " frames or more") + " seen through " +
-           drawing.api + where + ", none with solid geometry to cast: " +
-           (drawing.seen.empty() ? "" : drawing.seen + "; ") + ending;
+    return std::to_string(drawing.frames) + (drawing.frames == 1 ? " frame" : " frames or more") +
+           " seen through " + drawing.api + where +
+           ", none with solid geometry to cast: " + (drawing.seen.empty() ? "" : drawing.seen + "; ") +
+           ending;
 }
 
 StatusPipe::StatusPipe() {

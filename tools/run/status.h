@@ -29,9 +29,9 @@ struct Drawing {
 struct Seen {
     std::map<std::string, Drawing> drawings; ///< by process
     std::string started;                     ///< the process that glcast-run has started
-    long casting = 0;    ///< the frame being cast
-    std::string figures;           ///< of the capture that comes next
-    std::vector<Capture> captures; ///< complete, in the order in which they came
+    long casting = 0;                        ///< the frame being cast
+    std::string figures;                     ///< of the capture that comes next
+    std::vector<Capture> captures;           ///< complete, in the order in which they came
     std::string failed;
     std::string slow;       ///< why the cast will take long
     std::string progress;   ///< of a long cast, how far it is; empty: none is under way
@@ -44,11 +44,13 @@ struct Seen {
     /// All is there that was asked for, or nothing more will come. `wanted` captures, 0: no limit.
     bool finished(long wanted) const {
         if (looking) return false;
-        return listed || (wanted > 0 && static_cast<long>(captures.size()) >= wanted) || (wanted == 1 && !failed.empty());
+        return listed || (wanted > 0 && static_cast<long>(captures.size()) >= wanted) ||
+               (wanted == 1 && !failed.empty());
     }
 };
 
-/// Of whose drawing there is most to say: the process with most frames, then the one that was started, then the last.
+/// Of whose drawing there is most to say: the process with most frames, then the one that was started, then
+/// the last.
 Drawing principal(const Seen& seen);
 
 /// Takes one line in; kinds that are not known are skipped.

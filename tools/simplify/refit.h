@@ -14,8 +14,8 @@ namespace glcast {
 /// part of the remainder a point belongs to is found by walking along it, from the vertex that the point's
 /// surroundings collapsed into, and only triangles that face as the point does count: the two sides of a thin
 /// wall stay apart. No triangle turns over, the number of triangles and what is connected stay. A remainder
-/// of more than some 30,000 triangles is left as it is: there the collapses do as well; of more than 10,000 with
-/// little work. Deterministic on any number of threads.
+/// of more than some 30,000 triangles is left as it is: there the collapses do as well; of more than 10,000
+/// with little work. Deterministic on any number of threads.
 void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const SurfaceWalk& along,
            FitWork work = FitWork::full);
 

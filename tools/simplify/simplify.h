@@ -39,10 +39,10 @@ struct SimplifyOptions {
 };
 
 /// A closed two-manifold with at most the asked number of edges or triangles, or as few as collapses that
-/// keep it manifold, and from passing through itself where it did not, allow; colours and normals follow the surface. Needs a closed two-manifold: throws
-/// std::runtime_error on anything else, and on a target below 0 or a ratio above 1. Where the mesh is small
-/// enough already it comes back as it is. Every colour is one that the mesh has. The same mesh gives the same
-/// result, bit for bit, on any number of threads.
+/// keep it manifold, and from passing through itself where it did not, allow; colours and normals follow the
+/// surface. Needs a closed two-manifold: throws std::runtime_error on anything else, and on a target below 0
+/// or a ratio above 1. Where the mesh is small enough already it comes back as it is. Every colour is one
+/// that the mesh has. The same mesh gives the same result, bit for bit, on any number of threads.
 Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options = {});
 
 /// A mesh per target, in the order of the targets, made by one run of collapses from fine to coarse: as much
@@ -51,21 +51,22 @@ Mesh simplify(const Mesh& mesh, const SimplifyTarget& target, const SimplifyOpti
 std::vector<Mesh> simplify_levels(const Mesh& mesh, std::span<const SimplifyTarget> targets,
                                   const SimplifyOptions& options = {}, CollapseLog* log = nullptr);
 
-/// One run of collapses, from which levels are taken at whatever counts are asked for, in any order: for who looks for a
-/// count. Each is what simplify() gives for that count.
+/// One run of collapses, from which levels are taken at whatever counts are asked for, in any order: for who
+/// looks for a count. Each is what simplify() gives for that count.
 class Simplification {
   public:
-    /// `mesh` must be a closed two-manifold, and outlive this, unchanged. Throws std::runtime_error as simplify() does.
-    /// last_stretch and checked of the options as there.
+    /// `mesh` must be a closed two-manifold, and outlive this, unchanged. Throws std::runtime_error as
+    /// simplify() does. last_stretch and checked of the options as there.
     Simplification(const Mesh& mesh, const SimplifyOptions& options = {});
     ~Simplification();
 
     void collapse_to(std::size_t triangles); ///< no more than so many, or as few as collapses can leave
     std::size_t least() const;               ///< triangles that are left
 
-    /// A level with at most so many triangles, not fewer than least(). Levels may be taken on several threads at once,
-    /// but not while collapse_to() runs. One so fine that a part of the run would have to be undone for it is made by a
-    /// run of its own. Laid along the surface with so much work, where the options say so; without, in some milliseconds.
+    /// A level with at most so many triangles, not fewer than least(). Levels may be taken on several threads
+    /// at once, but not while collapse_to() runs. One so fine that a part of the run would have to be undone
+    /// for it is made by a run of its own. Laid along the surface with so much work, where the options say
+    /// so; without, in some milliseconds.
     Mesh level(std::size_t triangles, FitWork fit = FitWork::full) const;
 
   private:

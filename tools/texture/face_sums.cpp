@@ -25,7 +25,8 @@ template <class Visit> void for_points(int rows, const Visit& visit) {
         }
 }
 
-FaceSums sum_face(const Mesh& mesh, const LookAtSurface& look, double sample, const Triangle& t, const glm::vec3& normal) {
+FaceSums sum_face(const Mesh& mesh, const LookAtSurface& look, double sample, const Triangle& t,
+                  const glm::vec3& normal) {
     FaceSums face;
     const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
     face.area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (sample * sample);
@@ -61,7 +62,10 @@ std::vector<FaceSums> sum_faces(const Mesh& mesh, const CapturedSurface& capture
                                 const std::vector<glm::vec3>& normals) {
     const double reach = needed_reach(mesh, captured, normals);
     return sum_faces(
-        mesh, [&](const glm::dvec3& point, const glm::vec3& facing) { return captured.look(point, facing, facing, reach); },
+        mesh,
+        [&](const glm::dvec3& point, const glm::vec3& facing) {
+            return captured.look(point, facing, facing, reach);
+        },
         captured.sample(), normals);
 }
 

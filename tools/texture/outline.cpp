@@ -122,8 +122,7 @@ class Residuals {
     /// Height of the captured surface over a point; unknown where what is found lies beside, as at the rim of
     /// what a view covers.
     std::optional<double> height_over(const glm::dvec3& at, const glm::dvec3& up, double most) const {
-        const auto found =
-            captured.find_position(at * captured.sample(), glm::vec3(up), glm::vec3(up), most);
+        const auto found = captured.find_position(at * captured.sample(), glm::vec3(up), glm::vec3(up), most);
         if (!found) return std::nullopt;
         const glm::dvec3 off = *found / captured.sample() - at;
         const double height = glm::dot(off, up);

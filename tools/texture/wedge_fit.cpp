@@ -17,9 +17,9 @@
 namespace glcast {
 namespace {
 
-constexpr double smooth = 1e-3;   // of a triangle's area: carries values to where nothing is shown
-constexpr double anchor = 1e-6;   // of the area: holds the vertices' own where nothing is shown around either
-constexpr double crumb = 1e-9;    // samples squared: triangles without area count as so much
+constexpr double smooth = 1e-3; // of a triangle's area: carries values to where nothing is shown
+constexpr double anchor = 1e-6; // of the area: holds the vertices' own where nothing is shown around either
+constexpr double crumb = 1e-9;  // samples squared: triangles without area count as so much
 
 /// The wedges of a level as unknowns: which corners they are, and the normal equations.
 class Equations {
@@ -89,8 +89,8 @@ class Equations {
 };
 
 /// The values of the vertices, by wedge.
-Vectors own_values(const std::vector<glm::vec3>& values, const Mesh& mesh, const std::vector<Triangle>& corners,
-                   std::size_t wedges) {
+Vectors own_values(const std::vector<glm::vec3>& values, const Mesh& mesh,
+                   const std::vector<Triangle>& corners, std::size_t wedges) {
     Vectors own(wedges, glm::dvec3(0));
     if (values.empty()) return own;
     for (std::size_t t = 0; t < corners.size(); ++t)
@@ -145,10 +145,12 @@ void fit_to(const std::vector<FaceSums>& faces, Level& level, const std::vector<
     const Neighbours neighbours = find_neighbours(mesh);
     Wedges wedges;
     std::uint32_t count = 0;
-    wedges.corners = group_corners(mesh, neighbours, faces, normals, {options.degrees, options.colour}, count);
+    wedges.corners =
+        group_corners(mesh, neighbours, faces, normals, {options.degrees, options.colour}, count);
     const Equations equations(faces, wedges.corners, count);
     const Vectors own_normals = own_values(mesh.normals, mesh, wedges.corners, count);
-    wedges.normals = units(equations.solved([](const FaceSums& f) { return f.normal; }, own_normals), own_normals);
+    wedges.normals =
+        units(equations.solved([](const FaceSums& f) { return f.normal; }, own_normals), own_normals);
     wedges.colours = in_range(equations.solved([](const FaceSums& f) { return f.colour; },
                                                own_values(mesh.colours, mesh, wedges.corners, count)));
     bound_normals(mesh, wedges, normals, options.farthest_degrees);
@@ -166,7 +168,8 @@ double sample_of(const Mesh& surface) {
 }
 
 /// Of the triangles that face as asked, the nearest point.
-CapturedPoint look_at(const Mesh& surface, const SurfaceIndex& index, const glm::dvec3& point, const glm::vec3& facing) {
+CapturedPoint look_at(const Mesh& surface, const SurfaceIndex& index, const glm::dvec3& point,
+                      const glm::vec3& facing) {
     const std::uint32_t t = index.nearest_facing(point, facing, index.nearest(point)).triangle;
     const std::array<glm::dvec3, 3> corners = index.corners(t);
     const TrianglePoint at = nearest_in_triangle(point, corners[0], corners[1], corners[2]);
@@ -192,10 +195,14 @@ void fit_wedges(Level& level, const CapturedSurface& captured, const WedgeOption
 
 void fit_wedges(Level& level, const Mesh& surface, const WedgeOptions& options) {
     level.wedges = {};
-    if (level.mesh.triangles.empty() || surface.triangles.empty() || surface.normals.empty() || surface.colours.empty()) return;
+    if (level.mesh.triangles.empty() || surface.triangles.empty() || surface.normals.empty() ||
+        surface.colours.empty())
+        return;
     const SurfaceIndex index(surface, SurfaceIndex::Tree::quick);
     const std::vector<glm::vec3> normals = triangle_normals(level.mesh);
-    const auto look = [&](const glm::dvec3& point, const glm::vec3& facing) { return look_at(surface, index, point, facing); };
+    const auto look = [&](const glm::dvec3& point, const glm::vec3& facing) {
+        return look_at(surface, index, point, facing);
+    };
     fit_to(sum_faces(level.mesh, look, sample_of(surface), normals), level, normals, options);
 }
 

@@ -1,4 +1,5 @@
-/* The body of window.c, 3 wide, before or in something large. argv[1] names what: backdrops, and what is none. */
+/* The body of window.c, 3 wide, before or in something large. argv[1] names what: backdrops, and what is
+ * none. */
 #include <math.h>
 #include <string.h>
 

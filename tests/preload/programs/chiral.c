@@ -3,7 +3,8 @@
 #include <GL/gl.h>
 
 void draw_box(const float lo[3], const float hi[3]) {
-    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     static const float normals[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
     glBegin(GL_QUADS);
     for (int face = 0; face < 6; ++face) {
@@ -16,8 +17,7 @@ void draw_box(const float lo[3], const float hi[3]) {
     glEnd();
 }
 
-const float chiral_boxes[3][2][3] = {
-    {{0, 0, 0}, {1, 1, 3}}, {{1, 0, 0}, {3, 1, 1}}, {{0, 1, 2}, {1, 2, 3}}};
+const float chiral_boxes[3][2][3] = {{{0, 0, 0}, {1, 1, 3}}, {{1, 0, 0}, {3, 1, 1}}, {{0, 1, 2}, {1, 2, 3}}};
 
 void draw_chiral(void) {
     for (int i = 0; i < 3; ++i) draw_box(chiral_boxes[i][0], chiral_boxes[i][1]);

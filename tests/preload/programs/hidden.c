@@ -148,10 +148,11 @@ static const struct {
     const char* name;
     void (*draw)(void);
 } ways[] = {
-    {"mask-outlines", mask_and_outlines}, {"mask-lines", mask_and_lines},       {"equal-outlines", equal_and_lines},
-    {"lit-textured", lit_and_textured},   {"arrays-lines", arrays_and_lines},   {"colours-lines", colours_and_lines},
-    {"depth-first", depth_first},         {"mask-alone", mask_alone},           {"shaded-list", shaded_list},
-    {"shading-list", shading_list},
+    {"mask-outlines", mask_and_outlines}, {"mask-lines", mask_and_lines},
+    {"equal-outlines", equal_and_lines},  {"lit-textured", lit_and_textured},
+    {"arrays-lines", arrays_and_lines},   {"colours-lines", colours_and_lines},
+    {"depth-first", depth_first},         {"mask-alone", mask_alone},
+    {"shaded-list", shaded_list},         {"shading-list", shading_list},
 };
 
 int main(int argc, char** argv) {

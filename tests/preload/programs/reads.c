@@ -1,5 +1,5 @@
-/* Pictures that are read and never swapped, and programs that read before they swap: reads WAY [FRAMES]. The body is
-   that of chiral.h; PARTS of it are drawn before a read in the middle. */
+/* Pictures that are read and never swapped, and programs that read before they swap: reads WAY [FRAMES]. The
+   body is that of chiral.h; PARTS of it are drawn before a read in the middle. */
 #define GL_GLEXT_PROTOTYPES
 #include <X11/Xutil.h>
 #include <stdio.h>
@@ -35,8 +35,17 @@ static void read_one(void) {
 }
 
 static GLXFBConfig config(int type, int doubled) {
-    const int wanted[] = {GLX_DRAWABLE_TYPE, type, GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DEPTH_SIZE, 16, GLX_DOUBLEBUFFER,
-                          doubled, GLX_X_RENDERABLE, True, None};
+    const int wanted[] = {GLX_DRAWABLE_TYPE,
+                          type,
+                          GLX_RENDER_TYPE,
+                          GLX_RGBA_BIT,
+                          GLX_DEPTH_SIZE,
+                          16,
+                          GLX_DOUBLEBUFFER,
+                          doubled,
+                          GLX_X_RENDERABLE,
+                          True,
+                          None};
     int count = 0;
     if (!display) display = XOpenDisplay(0);
     GLXFBConfig* all = display ? glXChooseFBConfig(display, DefaultScreen(display), wanted, &count) : 0;
@@ -107,9 +116,9 @@ static void draw_and_get_texture(void) {
 }
 /* As JOGL's GLJPanel does: turned over by a GLSL program into a second framebuffer, and read there. */
 static void draw_turn_and_read(void) {
-    static const char* const text =
-        "uniform sampler2D picture; void main() { gl_FragColor = texture2D(picture, vec2(gl_FragCoord.x, 100.0 - "
-        "gl_FragCoord.y) / 100.0); }";
+    static const char* const text = "uniform sampler2D picture; void main() { gl_FragColor = "
+                                    "texture2D(picture, vec2(gl_FragCoord.x, 100.0 - "
+                                    "gl_FragCoord.y) / 100.0); }";
     static GLuint scene, picture, turned, program;
     if (!program) {
         scene = framebuffer, picture = colour;
@@ -186,7 +195,8 @@ static void preview_and_swap(void) {
     draw();
     glXSwapBuffers(display, window);
 }
-/* Draws the body in the first frames, and then nothing more; shows that until it is cast, for ten seconds at most. */
+/* Draws the body in the first frames, and then nothing more; shows that until it is cast, for ten seconds at
+ * most. */
 static void draw_and_rest(void) {
     const char* out = getenv("GLCAST_OUT");
     draw();

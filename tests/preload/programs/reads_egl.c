@@ -1,4 +1,5 @@
-/* Pictures that are read, drawn in contexts of EGL that have no window: reads_egl pbuffer|surfaceless [FRAMES]. */
+/* Pictures that are read, drawn in contexts of EGL that have no window: reads_egl pbuffer|surfaceless
+ * [FRAMES]. */
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -20,8 +21,8 @@ static void make_framebuffer(void) {
     for (int i = 0; i < 2; ++i) {
         glBindRenderbuffer(GL_RENDERBUFFER, buffers[i]);
         glRenderbufferStorage(GL_RENDERBUFFER, i ? GL_DEPTH_COMPONENT16 : GL_RGBA8, size, size);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                                  buffers[i]);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
+                                  GL_RENDERBUFFER, buffers[i]);
     }
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) exit(15);
 }
@@ -30,8 +31,8 @@ int main(int argc, char** argv) {
     const int has_surface = argc < 2 || strcmp(argv[1], "pbuffer") == 0;
     EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, 0);
     if (!eglInitialize(display, 0, 0) || !eglBindAPI(EGL_OPENGL_API)) return 11;
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                             EGL_DEPTH_SIZE,   16,              EGL_NONE};
+    const EGLint wanted[] = {
+        EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 16, EGL_NONE};
     EGLConfig config;
     EGLint count = 0;
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) return 12;

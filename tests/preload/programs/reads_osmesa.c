@@ -1,5 +1,5 @@
-/* The body of chiral.h drawn by OSMesa into memory of the program's own: reads_osmesa HOW [FRAMES]. With OPENED nothing
-   is linked, and OSMesa opened by dlopen, beside whatever GL there is. */
+/* The body of chiral.h drawn by OSMesa into memory of the program's own: reads_osmesa HOW [FRAMES]. With
+   OPENED nothing is linked, and OSMesa opened by dlopen, beside whatever GL there is. */
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <stdio.h>
@@ -8,10 +8,11 @@
 
 #ifdef OPENED
 #define EACH_CALL(X)                                                                                         \
-    X(OSMesaCreateContextExt) X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(OSMesaGetColorBuffer)     \
-    X(OSMesaDestroyContext) X(glReadPixels) X(glFinish) X(glGetError) X(glBegin) X(glNormal3fv)              \
-    X(glVertex3f) X(glEnd) X(glViewport) X(glMatrixMode) X(glLoadIdentity) X(glFrustum) X(glTranslatef)      \
-    X(glEnable) X(glClear)
+    X(OSMesaCreateContextExt)                                                                                \
+    X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(OSMesaGetColorBuffer) X(OSMesaDestroyContext)       \
+        X(glReadPixels) X(glFinish) X(glGetError) X(glBegin) X(glNormal3fv) X(glVertex3f) X(glEnd)           \
+            X(glViewport) X(glMatrixMode) X(glLoadIdentity) X(glFrustum) X(glTranslatef) X(glEnable)         \
+                X(glClear)
 #define DECLARE(NAME) static __typeof__(NAME)* opened_##NAME;
 EACH_CALL(DECLARE)
 #define OSMesaCreateContextExt opened_OSMesaCreateContextExt
@@ -42,8 +43,7 @@ static int open_osmesa(void) {
         void** function;
     } calls[] = {
 #define ENTRY(NAME) {#NAME, (void**)&opened_##NAME},
-        EACH_CALL(ENTRY)
-    };
+        EACH_CALL(ENTRY)};
     for (size_t i = 0; library && i < sizeof calls / sizeof *calls; ++i)
         if (!(*calls[i].function = dlsym(library, calls[i].name))) return 0;
     return library != 0;
@@ -60,10 +60,21 @@ static unsigned char memory[4 * size * size], pixels[4 * size * size];
 int main(int argc, char** argv) {
     const char* how = argc > 1 ? argv[1] : "finish";
     if (!open_osmesa()) return 10;
-    OSMesaContext context = strcmp(how, "attributes") != 0 ? OSMesaCreateContextExt(OSMESA_BGRA, 24, 8, 0, 0) : 0;
+    OSMesaContext context =
+        strcmp(how, "attributes") != 0 ? OSMesaCreateContextExt(OSMESA_BGRA, 24, 8, 0, 0) : 0;
     if (!context) {
-        const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION, 2, OSMESA_CONTEXT_MINOR_VERSION, 1, 0, 0};
+        const int wanted[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              24,
+                              OSMESA_PROFILE,
+                              OSMESA_COMPAT_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              2,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              1,
+                              0,
+                              0};
         context = OSMesaCreateContextAttribs(wanted, 0);
     }
     if (!context || !OSMesaMakeCurrent(context, memory, GL_UNSIGNED_BYTE, size, size)) return 11;

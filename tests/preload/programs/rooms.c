@@ -1,5 +1,5 @@
-/* What culling makes of a picture: outlines about a red box, rooms with red furniture, and the eye inside or outside.
- * argv[1] is outline or room, argv[2] names the way. Walls are blue, outlines black or yellow. */
+/* What culling makes of a picture: outlines about a red box, rooms with red furniture, and the eye inside or
+ * outside. argv[1] is outline or room, argv[2] names the way. Walls are blue, outlines black or yellow. */
 #include <math.h>
 #include <string.h>
 
@@ -57,13 +57,17 @@ static void outlined(void) {
     if (IS("drawn_first")) black(), cull(GL_FRONT), cube(1.1), cull(GL_BACK);
     if (IS("other_way_round")) glFrontFace(GL_CW), black(), cube(1.1), glFrontFace(GL_CCW);
     red();
-    if (IS("round")) ball(1);
-    else cube(1);
+    if (IS("round"))
+        ball(1);
+    else
+        cube(1);
     if (IS("far_faces")) black(), cull(GL_FRONT), cube(1.1);
     if (IS("round")) black(), cull(GL_FRONT), ball(1.06);
     if (IS("halo")) glColor3f(1, 1, 0), cull(GL_FRONT), cube(1.25);
-    if (IS("halo_without_depth")) glColor3f(1, 1, 0), cull(GL_FRONT), glDepthMask(0), cube(1.2), glDepthMask(1);
-    if (IS("lines")) black(), cull(GL_FRONT), glPolygonMode(GL_BACK, GL_LINE), glDepthFunc(GL_LEQUAL), cube(1);
+    if (IS("halo_without_depth"))
+        glColor3f(1, 1, 0), cull(GL_FRONT), glDepthMask(0), cube(1.2), glDepthMask(1);
+    if (IS("lines"))
+        black(), cull(GL_FRONT), glPolygonMode(GL_BACK, GL_LINE), glDepthFunc(GL_LEQUAL), cube(1);
     if (IS("same_faces")) black(), cull(GL_FRONT), glDepthFunc(GL_LEQUAL), cube(1);
     if (IS("nothing_shown")) black(), cull(GL_FRONT_AND_BACK), cube(1.5);
     if (IS("solid")) cube(.5);
@@ -101,7 +105,8 @@ static void two_rooms(void) {
     /* the door is 1 wide and 2 high */
     const double parts[3][4] = {{-2, -.5, -1.5, 1.5}, {.5, 2, -1.5, 1.5}, {-.5, .5, .5, 1.5}};
     for (int part = 0; part < 3; ++part)
-        for (int i = 0; i < 4; ++i) glVertex3d(-2, parts[part][i >= 2 ? 3 : 2], parts[part][i == 1 || i == 2]);
+        for (int i = 0; i < 4; ++i)
+            glVertex3d(-2, parts[part][i >= 2 ? 3 : 2], parts[part][i == 1 || i == 2]);
     glEnd();
 }
 
@@ -115,12 +120,18 @@ static void room(void) {
     } else {
         from_inside();
         blue();
-        if (IS("cavern")) ball(2.8);
-        else if (IS("two_rooms")) two_rooms();
-        else if (IS("culled_room")) cull(GL_FRONT), walls(), cull(GL_BACK);
-        else walls();
-        if (IS("cavern")) red(), box(-.5, -2, -.5, .5, -1, .5);
-        else furniture();
+        if (IS("cavern"))
+            ball(2.8);
+        else if (IS("two_rooms"))
+            two_rooms();
+        else if (IS("culled_room"))
+            cull(GL_FRONT), walls(), cull(GL_BACK);
+        else
+            walls();
+        if (IS("cavern"))
+            red(), box(-.5, -2, -.5, .5, -1, .5);
+        else
+            furniture();
         if (IS("two_rooms")) red(), box(-4.5, -1.5, -.5, -3.5, -.5, .5);
     }
 }
@@ -137,8 +148,10 @@ int main(int argc, char** argv) {
         glDisable(GL_CULL_FACE);
         glMatrixMode(GL_PROJECTION);
         glLoadIdentity();
-        if (argc > 1 && strcmp(argv[1], "outline") == 0) outlined();
-        else room();
+        if (argc > 1 && strcmp(argv[1], "outline") == 0)
+            outlined();
+        else
+            room();
         glXSwapBuffers(display, window);
     }
     return 0;

@@ -52,7 +52,8 @@ static void light(void) {
     glEnable(GL_LIGHTING), glEnable(GL_LIGHT0), glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
 }
 static void by_materials(void (*sheet)(void)) {
-    light(), glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, red), glMaterialfv(GL_BACK, GL_AMBIENT_AND_DIFFUSE, green);
+    light(), glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, red),
+        glMaterialfv(GL_BACK, GL_AMBIENT_AND_DIFFUSE, green);
     sheet();
 }
 /* Fronts by glColor, backs by a material. */

@@ -1,5 +1,5 @@
-/* Bodies drawn by way of the stencil buffer; argv[1] names the way. Bodies are red, caps blue, faces filled by parity and
- * decals green, outlines yellow. */
+/* Bodies drawn by way of the stencil buffer; argv[1] names the way. Bodies are red, caps blue, faces filled
+ * by parity and decals green, outlines yellow. */
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -49,7 +49,8 @@ static void count_two_sided(void (*body)(void)) {
     body(), end_marks();
 }
 static void count_two_sided_by_extension(void (*body)(void)) {
-    void (*active_face)(GLenum) = (void (*)(GLenum))glXGetProcAddress((const GLubyte*)"glActiveStencilFaceEXT");
+    void (*active_face)(GLenum) =
+        (void (*)(GLenum))glXGetProcAddress((const GLubyte*)"glActiveStencilFaceEXT");
     begin_marks(1), glEnable(GL_STENCIL_TEST_TWO_SIDE_EXT);
     active_face(GL_BACK), glStencilFunc(GL_ALWAYS, 0, ~0u), glStencilOp(GL_KEEP, GL_INCR_WRAP, GL_INCR_WRAP);
     active_face(GL_FRONT), glStencilOp(GL_KEEP, GL_DECR_WRAP, GL_DECR_WRAP);
@@ -116,7 +117,8 @@ static void prism(const float (*points)[2], const int* counts, int contours) {
         for (int k = 0; k < counts[c]; ++k) {
             const float *a = points[at + k], *b = points[at + (k + 1) % counts[c]];
             glNormal3f(b[1] - a[1], a[0] - b[0], 0);
-            glVertex3f(a[0], a[1], -1), glVertex3f(b[0], b[1], -1), glVertex3f(b[0], b[1], 1), glVertex3f(a[0], a[1], 1);
+            glVertex3f(a[0], a[1], -1), glVertex3f(b[0], b[1], -1), glVertex3f(b[0], b[1], 1),
+                glVertex3f(a[0], a[1], 1);
         }
     glEnd();
     end_of_prism(points, counts, contours, -1), end_of_prism(points, counts, contours, 1);
@@ -127,25 +129,30 @@ static void concave_by_parity(void) {
     prism(ell, counts, 1);
 }
 static void holed_by_parity(void) {
-    static const float frame[8][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-.5f, -.5f}, {-.5f, .5f}, {.5f, .5f}, {.5f, -.5f}};
+    static const float frame[8][2] = {{-1, -1},     {1, -1},     {1, 1},     {-1, 1},
+                                      {-.5f, -.5f}, {-.5f, .5f}, {.5f, .5f}, {.5f, -.5f}};
     static const int counts[] = {4, 4};
     prism(frame, counts, 2);
 }
 
 static void begin_seen_marks(GLint value) {
-    glEnable(GL_STENCIL_TEST), glStencilFunc(GL_ALWAYS, value, ~0u), glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glEnable(GL_STENCIL_TEST), glStencilFunc(GL_ALWAYS, value, ~0u),
+        glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
 }
 static void begin_kept(GLenum function, GLint value) {
     glStencilFunc(function, value, ~0u), glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
-static void outline(void) { begin_seen_marks(1), red(), solid(), begin_kept(GL_NOTEQUAL, 1), yellow(), box(hull); }
+static void outline(void) {
+    begin_seen_marks(1), red(), solid(), begin_kept(GL_NOTEQUAL, 1), yellow(), box(hull);
+}
 static void outline_where_0(void) {
     begin_seen_marks(0), glStencilOp(GL_KEEP, GL_KEEP, GL_INCR), red(), solid();
     begin_kept(GL_EQUAL, 0), yellow(), box(hull);
 }
 static void outline_of_far_faces(void) {
     begin_seen_marks(1), red(), solid();
-    glEnable(GL_CULL_FACE), glCullFace(GL_FRONT), begin_kept(GL_NOTEQUAL, 1), yellow(), box(hull), glDisable(GL_CULL_FACE);
+    glEnable(GL_CULL_FACE), glCullFace(GL_FRONT), begin_kept(GL_NOTEQUAL, 1), yellow(), box(hull),
+        glDisable(GL_CULL_FACE);
 }
 static void outline_of_value_2(void) {
     static const float other[2][3] = {{2, -1, -1}, {3, 1, 1}};
@@ -153,11 +160,13 @@ static void outline_of_value_2(void) {
     begin_kept(GL_NOTEQUAL, 2), yellow(), box(hull);
 }
 static void outline_before_its_body(void) {
-    begin_marks(0), glStencilFunc(GL_ALWAYS, 1, ~0u), glStencilOp(GL_KEEP, GL_REPLACE, GL_REPLACE), solid(), end_marks();
+    begin_marks(0), glStencilFunc(GL_ALWAYS, 1, ~0u), glStencilOp(GL_KEEP, GL_REPLACE, GL_REPLACE), solid(),
+        end_marks();
     begin_kept(GL_NOTEQUAL, 1), yellow(), box(hull), glDisable(GL_STENCIL_TEST), red(), solid();
 }
 static void outline_of_marks_but_the_body(void) {
-    begin_marks(0), glStencilFunc(GL_ALWAYS, 1, ~0u), glStencilOp(GL_KEEP, GL_REPLACE, GL_REPLACE), box(hull), end_marks();
+    begin_marks(0), glStencilFunc(GL_ALWAYS, 1, ~0u), glStencilOp(GL_KEEP, GL_REPLACE, GL_REPLACE), box(hull),
+        end_marks();
     begin_seen_marks(2), red(), solid(), begin_kept(GL_EQUAL, 1), yellow(), box(hull);
 }
 static void floor_where_nothing_is(void) {
@@ -168,17 +177,20 @@ static void floor_where_nothing_is(void) {
 /* One face alone is marked. */
 static void decal(void) {
     glDepthFunc(GL_LEQUAL), begin_seen_marks(2), red(), solid(), begin_seen_marks(1), quad(-1, -1, 1, 1, 1);
-    begin_kept(GL_EQUAL, 1), glDisable(GL_DEPTH_TEST), green(), quad(-.5f, -.5f, 2, .5f, 1), glEnable(GL_DEPTH_TEST);
+    begin_kept(GL_EQUAL, 1), glDisable(GL_DEPTH_TEST), green(), quad(-.5f, -.5f, 2, .5f, 1),
+        glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
 }
 static void decal_at_equal_depth(void) {
     glDepthFunc(GL_LEQUAL), begin_seen_marks(1), red(), solid();
     begin_kept(GL_EQUAL, 1), glDepthMask(0), glEnable(GL_POLYGON_OFFSET_FILL), glPolygonOffset(-1, -1);
-    green(), quad(-.5f, -.5f, 2, .5f, 1), glDisable(GL_POLYGON_OFFSET_FILL), glDepthMask(1), glDepthFunc(GL_LESS);
+    green(), quad(-.5f, -.5f, 2, .5f, 1), glDisable(GL_POLYGON_OFFSET_FILL), glDepthMask(1),
+        glDepthFunc(GL_LESS);
 }
 static void label_in_front(void) {
     begin_seen_marks(1), red(), solid();
-    begin_kept(GL_EQUAL, 1), glDisable(GL_DEPTH_TEST), green(), quad(-.5f, -.5f, .5f, .5f, 2), glEnable(GL_DEPTH_TEST);
+    begin_kept(GL_EQUAL, 1), glDisable(GL_DEPTH_TEST), green(), quad(-.5f, -.5f, .5f, .5f, 2),
+        glEnable(GL_DEPTH_TEST);
 }
 static void hole_in_a_wall(void) {
     begin_marks(1), glStencilFunc(GL_ALWAYS, 1, ~0u), glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
