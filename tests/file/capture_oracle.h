@@ -1,4 +1,4 @@
-// Captures by OpenEXR, which read and write them without us.
+// What the tests of capture files share; OpenEXR, which reads and writes them without us, is the oracle.
 #pragma once
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
@@ -57,6 +58,18 @@ inline double angle_degrees(glm::vec3 a, glm::vec3 b) {
     return std::atan2(glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))),
                       glm::dot(glm::dvec3(a), glm::dvec3(b))) *
            180 / M_PI;
+}
+
+inline std::string why_refused(const std::filesystem::path& path) {
+    try {
+        read_capture(path);
+    } catch (const std::runtime_error& e) {
+        const std::string why = e.what();
+        EXPECT_EQ(why.find('\n'), std::string::npos) << "one line: " << why;
+        EXPECT_NE(why.find(path.string()), std::string::npos) << "names the file: " << why;
+        return why;
+    }
+    return "";
 }
 
 } // namespace glcast::samples

@@ -28,22 +28,6 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
     return real(thread, attributes, run, argument);
 }
 
-namespace {
-
-std::string why_refused(const std::filesystem::path& path) {
-    try {
-        read_capture(path);
-    } catch (const std::runtime_error& e) {
-        const std::string why = e.what();
-        EXPECT_EQ(why.find('\n'), std::string::npos) << "one line: " << why;
-        EXPECT_NE(why.find(path.string()), std::string::npos) << "names the file: " << why;
-        return why;
-    }
-    return "";
-}
-
-} // namespace
-
 class CaptureFileRoundTrip : public testing::TestWithParam<int> {};
 
 TEST_P(CaptureFileRoundTrip, PixelsAndAttributes) {
