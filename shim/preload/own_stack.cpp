@@ -114,7 +114,7 @@ std::size_t room_on_this_stack() {
 
 /// makecontext passes ints.
 void run_job(unsigned high, unsigned low) {
-    Job& job = *reinterpret_cast<Job*>(std::uintptr_t{high} << 32 | low);
+    Job& job = *reinterpret_cast<Job*>(static_cast<std::uintptr_t>(std::uint64_t{high} << 32 | low));
     job.sanitizer.arrived();
     try {
         job.work(job.with);
@@ -133,7 +133,7 @@ constinit thread_local bool is_there = false;
     getcontext(&job->ours);
     job->ours.uc_stack.ss_sp = stack.low + page_size();
     job->ours.uc_stack.ss_size = stack.size - page_size() - room;
-    const auto address = reinterpret_cast<std::uintptr_t>(job);
+    const std::uint64_t address = reinterpret_cast<std::uintptr_t>(job);
     makecontext(&job->ours, reinterpret_cast<void (*)()>(run_job), 2, static_cast<unsigned>(address >> 32),
                 static_cast<unsigned>(address));
     is_there = true;
