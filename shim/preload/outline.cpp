@@ -1,5 +1,6 @@
 #include "shim/preload/outline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -8,6 +9,7 @@ namespace {
 
 constexpr double close_around = 1.0 / 4, close_on_one_side = 1.0 / 8; ///< of the width
 constexpr double least_room = 1.0 / 100;                              ///< of the width
+constexpr double same_place = 1e-5;                                   ///< of the width
 constexpr double least_volume = 1.0 / 1000;                           ///< of the cube of the width
 constexpr std::size_t most_corners = 64;
 
@@ -41,6 +43,8 @@ struct Piece {
     std::vector<std::size_t> draws;
     Bounds bounds;
     double volume = 0; ///< as if its shown sides were the outer ones
+    long triangles = 0;
+    Shown shown = Shown::counter_clockwise;
     bool faces_inward() const { return volume < -least_volume * std::pow(bounds.width(), 3); }
 };
 
@@ -53,11 +57,13 @@ std::vector<Piece> culled_pieces(const std::vector<DrawShape>& shapes, bool righ
     for (const auto& draws : connected_draws(shapes, is_culled, alike)) {
         Piece& piece = pieces.emplace_back();
         piece.draws = draws;
+        piece.shown = shapes[draws.front()].shown;
         for (const std::size_t i : draws) piece.bounds.add(bounds_of(shapes[i]));
         const glm::dvec3 about = piece.bounds.middle();
         for (const std::size_t i : draws) {
             const double sign = (shapes[i].shown == Shown::counter_clockwise) == right_handed ? 1 : -1;
             for_triangles(shapes[i], [&](const auto& a, const auto& b, const auto& c) {
+                ++piece.triangles;
                 piece.volume += sign * glm::dot(a - about, glm::cross(b - about, c - about)) / 6;
             });
         }
@@ -87,6 +93,14 @@ double farthest(const std::vector<glm::dvec3>& corners, const std::vector<const 
         most = std::max(most, least);
     }
     return std::sqrt(most);
+}
+
+/// The same faces, culled the other way: a sheet whose two sides are drawn one after the other.
+bool are_two_sides(const Piece& a, const Piece& b) {
+    const double close = same_place * a.bounds.width();
+    return a.shown != b.shown && a.triangles == b.triangles &&
+           glm::all(glm::lessThanEqual(glm::abs(a.bounds.lo - b.bounds.lo), glm::dvec3(close))) &&
+           glm::all(glm::lessThanEqual(glm::abs(a.bounds.hi - b.bounds.hi), glm::dvec3(close)));
 }
 
 bool is_outline(const Piece& piece, const std::vector<DrawShape>& shapes, const std::vector<bool>& inward,
@@ -120,7 +134,10 @@ std::vector<bool> find_outlines(const std::vector<DrawShape>& shapes, const glm:
     for (const Piece& piece : pieces)
         for (const std::size_t i : piece.draws) inward[i] = piece.faces_inward();
     for (const Piece& piece : pieces) {
-        if (!piece.faces_inward() || !is_outline(piece, shapes, inward, eye)) continue;
+        const auto is_side = [&](const Piece& other) { return are_two_sides(piece, other); };
+        if (!piece.faces_inward() || std::any_of(pieces.begin(), pieces.end(), is_side) ||
+            !is_outline(piece, shapes, inward, eye))
+            continue;
         for (const std::size_t i : piece.draws) found[i] = true;
     }
     return found;

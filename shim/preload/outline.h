@@ -9,7 +9,8 @@
 //   not in it, and no corner of it is farther from what is in it, and is no such hull itself, than an eighth
 //   of its width; or a fourth where it leaves room on all six sides.
 //
-// A room is none, as things in it stand on its floor and away from its corners.
+// The same faces drawn by another piece that is culled the other way make it a sheet with two sides, and no
+// outline. A room is none, as things in it stand on its floor and away from its corners.
 #pragma once
 #include "shim/preload/draw_shape.h"
 

@@ -209,11 +209,15 @@ class GlbReader {
     void add_colours(Mesh& mesh, int accessor, int material) {
         const std::size_t base = mesh.colours.size();
         glm::dvec3 factor(1);
+        bool is_ours = false; // a plain white, which the format leaves out
         if (material >= 0) {
-            const auto& f = at(model.materials, material, "a material").pbrMetallicRoughness.baseColorFactor;
+            const tinygltf::Material& described = at(model.materials, material, "a material");
+            const auto& f = described.pbrMetallicRoughness.baseColorFactor;
+            is_ours = described.name == material_name(glm::vec3(1));
             if (f.size() >= 3) factor = {f[0], f[1], f[2]};
         }
-        colours = colours || accessor >= 0 || factor != glm::dvec3(1); // white beside others is a colour
+        colours =
+            colours || accessor >= 0 || factor != glm::dvec3(1) || is_ours; // white beside others is a colour
         mesh.colours.resize(mesh.positions.size(), glm::vec3(1));
         for (std::size_t v = base; v < mesh.colours.size(); ++v)
             for (int k = 0; k < 3; ++k) mesh.colours[v][k] = to_display(float(factor[k]));
