@@ -142,7 +142,7 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     if (draw.is_decal) return true;
     if (draw.left_out) return backdrops;
     if (!of.writes_depth || draw.writes_depth) return true;
-    return draw.before_depth ? backdrops : draw.tests_depth;
+    return draw.before_depth ? backdrops && draw.writes_colour : draw.tests_depth;
 }
 
 Sides sides_of(const Scene& scene, int group) {

@@ -92,6 +92,7 @@ struct Draw {
     /// window.
     enum class Shown : std::uint8_t { both, counter_clockwise, clockwise, none } shown = Shown::both;
     bool tests_depth = false, writes_depth = false;
+    bool writes_colour = true; ///< some channel of it
     bool before_depth = false; ///< nothing of the group had written depth yet
     bool stencilled = false;   ///< kept to some places by a stencil test
     bool is_open = false;      ///< seen wherever it is in front: not stencilled, writes colour and depth

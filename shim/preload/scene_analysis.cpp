@@ -152,6 +152,7 @@ class Analysis final : public DrawGate {
         inner.GetBooleanv(GL_DEPTH_WRITEMASK, &mask);
         draw.writes_depth = tests && mask;
         draw.before_depth = !group.writes_depth;
+        draw.writes_colour = writes_colour();
         const bool tests_stencil = inner.IsEnabled(GL_STENCIL_TEST), colours = writes_colour();
         draw.stencilled = tests_stencil && get_int(inner, GL_STENCIL_FUNC) != GL_ALWAYS;
         if (draw.kind == Draw::Kind::filled && inner.IsEnabled(GL_CULL_FACE) && colours)

@@ -62,6 +62,7 @@ TEST_P(Stencils, cast_as_the_window_shows) {
     const StencilRun run = cast(truth.way);
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
+    EXPECT_EQ(run.outcome.err.find("backdrop"), std::string::npos) << run.outcome.err; // marks are none
     const Body body = measure(*run.capture);
     EXPECT_NEAR(body.volume, truth.volume, 0.02 * truth.volume);
     EXPECT_NEAR(body.area, truth.area, 0.02 * truth.area);
