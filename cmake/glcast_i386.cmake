@@ -50,6 +50,9 @@ glcast_preload_link(lib32 ${GLCAST_I386_BUILD}/shim/preload/libglcast.so glcast_
 add_dependencies(glcast_i386_place glcast_i386)
 add_dependencies(glcast_lib32_place glcast_i386)
 install(FILES ${GLCAST_I386_BUILD}/shim/preload/libglcast.so DESTINATION lib/i386-linux-gnu/glcast COMPONENT i386)
-install(CODE "file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast\")
+install(CODE "if(CMAKE_INSTALL_DO_STRIP)
+    execute_process(COMMAND ${CMAKE_STRIP} \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/i386-linux-gnu/glcast/libglcast.so\")
+endif()
+file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast\")
 file(CREATE_LINK ../../lib/i386-linux-gnu/glcast/libglcast.so \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast/libglcast.so\" SYMBOLIC)"
     COMPONENT i386)

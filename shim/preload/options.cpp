@@ -130,6 +130,17 @@ bool parse_mask(const std::string& text, Options& options) {
     return true;
 }
 
+/// As they were published.
+constexpr std::pair<const char*, GlVersion> pretended_versions[] = {
+    {"1.0", {1, 0}}, {"1.1", {1, 1}}, {"1.2", {1, 2}}, {"1.3", {1, 3}},
+    {"1.4", {1, 4}}, {"1.5", {1, 5}}, {"2.0", {2, 0}}, {"2.1", {2, 1}}};
+
+bool parse_pretend(const std::string& text, Options& options) {
+    for (const auto& [name, version] : pretended_versions)
+        if (text == name) options.pretend = version;
+    return options.pretend.has_value();
+}
+
 /// The variables beside GLCAST_OUT and what each may hold.
 struct Variable {
     const char* name;
@@ -202,6 +213,7 @@ constexpr Variable variables[] = {
      }},
     {"GLCAST_READ_ENDS", "0 or 1",
      [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
+    {"GLCAST_PRETEND", "a version of OpenGL, 1.0 to 1.5, 2.0 or 2.1", parse_pretend},
     {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
 };
 

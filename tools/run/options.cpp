@@ -246,6 +246,10 @@ void declare(CLI::App& app, Options& o) {
            "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
         ->envname("GLCAST_FOV")
         ->check(CLI::Range(0.001, 179.999));
+    app.add_option("--pretend", o.pretend,
+                   "Tell PROGRAM of this version of OpenGL, and of no shaders: some draw without them then")
+        ->envname("GLCAST_PRETEND")
+        ->check(CLI::IsMember({"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "2.0", "2.1"}));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,
@@ -379,6 +383,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {"GLCAST_TRANSPARENT", o.transparent},
         {"GLCAST_BACKDROP", o.backdrop},
         {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
+        {"GLCAST_PRETEND", o.pretend},
         {"GLCAST_QUIT", o.quit ? "1" : ""},
         {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
         {"GLCAST_VERBOSE", o.verbose ? "1" : ""},

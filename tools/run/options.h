@@ -32,6 +32,7 @@ struct Options {
     std::string list_picture; ///< absolute; implies `list`
     std::string include, transparent, backdrop;
     double view_angle = 0;      ///< degrees; 0: not told
+    std::string pretend;        ///< a version of OpenGL, or empty: the driver's
     double timeout_seconds = 0; ///< 0: no limit
     double most_seconds = 0;    ///< of one cast; 0: no limit
     bool verbose = false, json = false;
