@@ -60,24 +60,7 @@ namespace {
     X(glXGetCurrentReadDrawable)                                                                             \
     X(glXQueryDrawable)
 
-struct RealGlx {
-#define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
-    GLCAST_GLX_CALLS(GLCAST_MEMBER)
-    GLCAST_GLX_QUERIES(GLCAST_MEMBER)
-#undef GLCAST_MEMBER
-};
-
-const RealGlx& real() {
-    static const RealGlx table = [] {
-        RealGlx found;
-#define GLCAST_FIND(NAME) find_real(#NAME, found.NAME);
-        GLCAST_GLX_CALLS(GLCAST_FIND)
-        GLCAST_GLX_QUERIES(GLCAST_FIND)
-#undef GLCAST_FIND
-        return found;
-    }();
-    return table;
-}
+GLCAST_DEFINE_REAL_CALLS(GLCAST_GLX_CALLS, GLCAST_GLX_QUERIES)
 
 Display* as_display(void* display) { return static_cast<Display*>(display); }
 
@@ -193,14 +176,7 @@ bool asks_for_es(const std::optional<std::vector<int>>& attributes) {
 
 } // namespace
 
-WindowEntries glx_entries() {
-    static const WindowEntry entries[] = {
-#define GLCAST_ENTRY(NAME) {#NAME, reinterpret_cast<GlProc>(&::NAME)},
-        GLCAST_GLX_CALLS(GLCAST_ENTRY)
-#undef GLCAST_ENTRY
-    };
-    return {entries, std::size(entries)};
-}
+GLCAST_DEFINE_WINDOW_ENTRIES(glx_entries, GLCAST_GLX_CALLS)
 
 } // namespace glcast::preload
 

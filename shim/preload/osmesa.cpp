@@ -28,24 +28,9 @@ namespace {
     X(OSMesaGetDepthBuffer)                                                                                  \
     X(OSMesaGetProcAddress)
 
-struct RealOsmesa {
-#define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
-    GLCAST_OSMESA_CALLS(GLCAST_MEMBER)
-    GLCAST_MEMBER(OSMesaGetCurrentContext)
-#undef GLCAST_MEMBER
-};
+#define GLCAST_OSMESA_QUERIES(X) X(OSMesaGetCurrentContext)
 
-const RealOsmesa& real() {
-    static const RealOsmesa table = [] {
-        RealOsmesa found;
-#define GLCAST_FIND(NAME) find_real(#NAME, found.NAME);
-        GLCAST_OSMESA_CALLS(GLCAST_FIND)
-        GLCAST_FIND(OSMesaGetCurrentContext)
-#undef GLCAST_FIND
-        return found;
-    }();
-    return table;
-}
+GLCAST_DEFINE_REAL_CALLS(GLCAST_OSMESA_CALLS, GLCAST_OSMESA_QUERIES)
 
 /// The program's memory that a context draws into.
 struct Image {
@@ -126,14 +111,7 @@ void memory_is_shown() {
 
 } // namespace
 
-WindowEntries osmesa_entries() {
-    static const WindowEntry entries[] = {
-#define GLCAST_ENTRY(NAME) {#NAME, reinterpret_cast<GlProc>(&::NAME)},
-        GLCAST_OSMESA_CALLS(GLCAST_ENTRY)
-#undef GLCAST_ENTRY
-    };
-    return {entries, std::size(entries)};
-}
+GLCAST_DEFINE_WINDOW_ENTRIES(osmesa_entries, GLCAST_OSMESA_CALLS)
 
 } // namespace glcast::preload
 

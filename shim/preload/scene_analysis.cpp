@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capture/forced_state.h"
+#include "capture/gl/gl_query.h"
 #include "capture/solidity.h"
 #include "shim/preload/feedback_probe.h"
 #include "shim/preload/scene.h"
@@ -22,12 +23,6 @@ glm::dmat4 get_matrix(const GlTable& gl, GLenum name) {
     glm::dmat4 matrix(1.0);
     gl.GetDoublev(name, glm::value_ptr(matrix));
     return matrix;
-}
-
-GLint get_int(const GlTable& gl, GLenum name) {
-    GLint value = 0;
-    gl.GetIntegerv(name, &value);
-    return value;
 }
 
 bool mirrors(const glm::dmat4& modelview) { return glm::determinant(glm::dmat3(modelview)) < 0; }

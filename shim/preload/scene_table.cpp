@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "shim/preload/ignored_calls.h"
+
 namespace glcast::preload {
 namespace {
 
@@ -98,13 +100,6 @@ template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlT
 struct Dropped;
 template <auto Member, class R, class... A> struct Dropped<Member, R (*)(A...)> {
     static R APIENTRY call(A...) { gate->pixels_drawn(); }
-};
-
-/// What must not happen while nothing is drawn.
-template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
-struct Ignored;
-template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
-    static R APIENTRY call(A...) {}
 };
 
 template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
@@ -285,8 +280,8 @@ void APIENTRY push_matrix() {
     X(EvalCoord1dv)                                                                                          \
     X(EvalCoord1fv)                                                                                          \
     X(EvalCoord2d)                                                                                           \
-    X(EvalCoord2f) X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2) X(ArrayElement)               \
-        X(ArrayElementEXT)
+    X(EvalCoord2f)                                                                                           \
+    X(EvalCoord2dv) X(EvalCoord2fv) X(EvalPoint1) X(EvalPoint2) X(ArrayElement) X(ArrayElementEXT)
 
 #define GLCAST_VERTICES_WITH_W(X) GLCAST_FOUR_TYPES(X, Vertex4) GLCAST_FOUR_TYPES_V(X, Vertex4)
 
@@ -308,13 +303,15 @@ void APIENTRY push_matrix() {
     X(VertexAttrib4ubv)                                                                                      \
     X(VertexAttrib4uiv)                                                                                      \
     X(VertexAttrib4usv)                                                                                      \
-    X(VertexAttrib4Nbv) X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub) X(VertexAttrib4Nubv)     \
-        X(VertexAttrib4Nuiv) X(VertexAttrib4Nusv)
+    X(VertexAttrib4Nbv)                                                                                      \
+    X(VertexAttrib4Niv) X(VertexAttrib4Nsv) X(VertexAttrib4Nub) X(VertexAttrib4Nubv) X(VertexAttrib4Nuiv)    \
+        X(VertexAttrib4Nusv)
 
 #define GLCAST_EIGHT_TYPES(X, NAME)                                                                          \
     X(NAME##b)                                                                                               \
-    X(NAME##d) X(NAME##f) X(NAME##i) X(NAME##s) X(NAME##ub) X(NAME##ui) X(NAME##us) X(NAME##bv) X(NAME##dv)  \
-        X(NAME##fv) X(NAME##iv) X(NAME##sv) X(NAME##ubv) X(NAME##uiv) X(NAME##usv)
+    X(NAME##d)                                                                                               \
+    X(NAME##f) X(NAME##i) X(NAME##s) X(NAME##ub) X(NAME##ui) X(NAME##us) X(NAME##bv) X(NAME##dv) X(NAME##fv) \
+        X(NAME##iv) X(NAME##sv) X(NAME##ubv) X(NAME##uiv) X(NAME##usv)
 #define GLCAST_COLOURS(X) GLCAST_EIGHT_TYPES(X, Color3) GLCAST_EIGHT_TYPES(X, Color4)
 
 #define GLCAST_RECTANGLES(X) GLCAST_FOUR_TYPES(X, Rect) GLCAST_FOUR_TYPES_V(X, Rect)
@@ -365,7 +362,7 @@ void install_others(GlTable& table, bool draws_nothing) {
     GLCAST_PIXELS(GLCAST_INSTALL)
 #undef GLCAST_INSTALL
 #define GLCAST_INSTALL(NAME) table.NAME = Ignored<&GlTable::NAME>::call;
-    if (draws_nothing) {
+    if (draws_nothing) { // what must not happen then
         GLCAST_CLEARS(GLCAST_INSTALL)
     }
 #undef GLCAST_INSTALL

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capture/engine_target.h"
+#include "shim/preload/ignored_calls.h"
 
 namespace glcast::preload {
 namespace {
@@ -23,13 +24,6 @@ void APIENTRY disable(GLenum cap) {
 void APIENTRY push_attrib(GLbitfield mask) {
     real->PushAttrib(mask & ~GLbitfield(GL_VIEWPORT_BIT | GL_SCISSOR_BIT | GL_STENCIL_BUFFER_BIT));
 }
-
-template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
-struct Ignored;
-template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
-    static R APIENTRY call(A...) { return R(); }
-};
-template <auto... Members> void ignore(GlTable& table) { ((table.*Members = Ignored<Members>::call), ...); }
 
 using G = GlTable;
 
@@ -95,26 +89,22 @@ void read(const GlTable& gl, const Target& target, Thumbnail& thumbnail) {
     thumbnail.flat = covered > 0 && furthest - nearest < 1e-6f;
 }
 
-/// Of the longer side `size`.
-struct Frame {
-    int width, height;
-    Frame(const std::array<GLint, 4>& viewport, int size) {
-        const int longer = std::max({viewport[2], viewport[3], 1});
-        width = std::clamp(size * viewport[2] / longer, 1, size);
-        height = std::clamp(size * viewport[3] / longer, 1, size);
-    }
-};
-
 } // namespace
+
+PictureSize::PictureSize(const std::array<GLint, 4>& viewport, int longer_side) {
+    const int longer = std::max({viewport[2], viewport[3], 1});
+    width = std::clamp(longer_side * viewport[2] / longer, 1, longer_side);
+    height = std::clamp(longer_side * viewport[3] / longer, 1, longer_side);
+}
 
 Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
                          bool depth_reversed, int size) {
     Thumbnail thumbnail;
     const GlTable calls = with_framebuffer_calls(gl);
     if (!has_framebuffer_calls(calls)) return thumbnail;
-    const Frame frame(viewport, size);
-    thumbnail.width = frame.width;
-    thumbnail.height = frame.height;
+    const PictureSize picture(viewport, size);
+    thumbnail.width = picture.width;
+    thumbnail.height = picture.height;
     const Target target(calls, size, false);
     if (!target.complete()) return thumbnail;
     prepare(calls, target, thumbnail.width, thumbnail.height, depth_reversed);
@@ -132,11 +122,11 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     const GlTable calls = with_framebuffer_calls(gl);
     const Target target(calls, size, false);
     if (!target.complete()) return picture;
-    const Frame frame(viewport, size);
-    picture.width = frame.width;
-    picture.height = frame.height;
+    const PictureSize sides(viewport, size);
+    picture.width = sides.width;
+    picture.height = sides.height;
     picture.stride = size;
-    prepare(calls, target, frame.width, frame.height, false);
+    prepare(calls, target, sides.width, sides.height, false);
     gl.Disable(GL_CULL_FACE);
     GlTable table = picture_table(calls, program_culls);
     ignore<&G::DepthMask>(table);

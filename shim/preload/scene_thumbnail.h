@@ -9,6 +9,12 @@
 
 namespace glcast::preload {
 
+/// Of a picture of what is seen through a viewport.
+struct PictureSize {
+    int width, height;
+    PictureSize(const std::array<GLint, 4>& viewport, int longer_side);
+};
+
 struct Thumbnail {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb; ///< bottom row first; what is not drawn is grey

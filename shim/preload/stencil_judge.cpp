@@ -4,6 +4,7 @@
 #include <map>
 
 #include "capture/engine_target.h"
+#include "shim/preload/ignored_calls.h"
 #include "shim/preload/scene_table.h"
 #include "shim/preload/scene_thumbnail.h"
 
@@ -39,13 +40,6 @@ void APIENTRY disable(GLenum cap) {
 void APIENTRY push_attrib(GLbitfield mask) {
     inner_table->PushAttrib(mask & ~GLbitfield(GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT));
 }
-template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlTable&>().*Member)>>
-struct Ignored;
-template <auto Member, class R, class... A> struct Ignored<Member, R (*)(A...)> {
-    static R APIENTRY call(A...) { return R(); }
-};
-template <auto... Members> void ignore(GlTable& table) { ((table.*Members = Ignored<Members>::call), ...); }
-
 /// The program's drawing without its depth test, culling and offsets, which are the judge's.
 GlTable judges_table(const GlTable& picture) {
     using G = GlTable;
@@ -127,11 +121,9 @@ class Gate final : public DrawGate {
 };
 
 void prepare(const GlTable& gl, const Target& target, const Group& group) {
-    const auto& viewport = group.viewport;
-    const int longer = std::max({viewport[2], viewport[3], 1});
+    const PictureSize picture(group.viewport, picture_size);
     target.bind();
-    gl.Viewport(0, 0, std::max(1, picture_size * viewport[2] / longer),
-                std::max(1, picture_size * viewport[3] / longer));
+    gl.Viewport(0, 0, picture.width, picture.height);
     for (const GLenum cap : {GL_SCISSOR_TEST, GL_CULL_FACE, GL_BLEND, GL_LIGHTING}) gl.Disable(cap);
     for (const GLenum cap : {GL_DEPTH_TEST, GL_STENCIL_TEST}) gl.Enable(cap);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

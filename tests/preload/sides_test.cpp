@@ -2,7 +2,6 @@
 // (programs/sides.c).
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -14,19 +13,10 @@ namespace {
 
 constexpr int n = 96;
 
-struct SidesRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-SidesRun cast(const std::string& way) {
-    const TemporaryFolder folder;
-    SidesRun result;
-    result.outcome = run_program(
-        {SIDES, way}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", std::to_string(n)}}, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+CastRun cast(const std::string& way, Environment environment = {}) {
+    CastRun run = cast_program({SIDES, way}, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 struct Areas {
@@ -62,7 +52,7 @@ class Sides : public testing::TestWithParam<Truth> {};
 // The border of a sheet is up to a sample short.
 TEST_P(Sides, have_a_colour_each) {
     const Truth& truth = GetParam();
-    const SidesRun run = cast(truth.way);
+    const CastRun run = cast(truth.way);
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_TRUE(run.capture->info.both_sides);
     const Areas areas = measure(*run.capture);
@@ -84,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.way); });
 
 TEST(SidesTest, that_look_alike_are_drawn_once) {
-    const SidesRun run = cast("one_colour"), both = cast("four_plates");
+    const CastRun run = cast("one_colour"), both = cast("four_plates");
     ASSERT_TRUE(run.capture && both.capture) << run.outcome.err;
     EXPECT_FALSE(run.capture->info.both_sides);
     for (const ViewImage& image : run.capture->images) EXPECT_TRUE(image.other_colour.empty());
