@@ -10,6 +10,7 @@
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
 #include "shim/preload/watcher.h"
+#include "shim/preload/wine.h"
 
 namespace glcast::preload {
 namespace {
@@ -116,7 +117,8 @@ void forget_if_unused(Session& s, NativeContext* context) {
 
 void refuse(Session& s, std::string why) {
     if (why.starts_with("a core profile") && !s.options.pretend)
-        why += "; --pretend 1.5 keeps such contexts from it";
+        why += is_wine() ? "; where that is Wine's Direct3D, --direct3d lets it draw by fixed functions"
+                         : "; --pretend 1.5 keeps such contexts from it";
     s.seen.refused = why;
     say_once("a frame cannot be recorded: %s (the next one is tried)", why.c_str());
     tell("refused", why);

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(I386, Width, testing::ValuesIn(fixtures::shape_names())
 TEST(SmallStack, of_4_bytes_is_cast) {
     const TemporaryFolder folder;
     const Outcome outcome = run_program(
-        {SMALL_STACK}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "48"}, {"GLCAST_PRETEND", "1.5"}}, true);
+        {SMALL_STACK}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", "48"}, {"GLCAST_PRETEND", "1.5"}},
+        true);
     EXPECT_EQ(outcome.signal, 0) << outcome.err;
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NEAR(volume(read_capture(folder / "cast.exr")), 6, 0.3); // three boxes (programs/chiral.c)

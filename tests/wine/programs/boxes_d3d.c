@@ -1,5 +1,6 @@
-/* The three boxes of chiral.h by the fixed functions of Direct3D 8 or 9 (-DVERSION). Direct3D is left-handed: the camera looks along +z at
- * the mirror image of boxes whose z is turned round, so that the picture is that of the OpenGL program. */
+/* The three boxes of chiral.h by the fixed functions of Direct3D 8 or 9 (-DVERSION). Direct3D is left-handed:
+ * the camera looks along +z at the mirror image of boxes whose z is turned round, so that the picture is that
+ * of the OpenGL program. */
 #define COBJMACROS
 #include <windows.h>
 #if VERSION == 8
@@ -25,7 +26,8 @@ static Vertex vertices[3 * 36];
 static int count;
 
 static void add_box(const float box[2][3]) {
-    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     static const int corners[6] = {0, 1, 2, 0, 2, 3};
     for (int face = 0; face < 6; ++face)
         for (int i = 0; i < 6; ++i) {
@@ -60,12 +62,14 @@ static Device* make_device(HWND window) {
     D3DDISPLAYMODE mode;
     if (!direct3d || FAILED(IDirect3D8_GetAdapterDisplayMode(direct3d, 0, &mode))) return 0;
     wanted.BackBufferFormat = mode.Format;
-    IDirect3D8_CreateDevice(direct3d, 0, D3DDEVTYPE_HAL, window, D3DCREATE_HARDWARE_VERTEXPROCESSING, &wanted, &device);
+    IDirect3D8_CreateDevice(direct3d, 0, D3DDEVTYPE_HAL, window, D3DCREATE_HARDWARE_VERTEXPROCESSING, &wanted,
+                            &device);
 #else
     IDirect3D9* direct3d = Direct3DCreate9(D3D_SDK_VERSION);
     if (!direct3d) return 0;
     wanted.BackBufferFormat = D3DFMT_UNKNOWN;
-    IDirect3D9_CreateDevice(direct3d, 0, D3DDEVTYPE_HAL, window, D3DCREATE_HARDWARE_VERTEXPROCESSING, &wanted, &device);
+    IDirect3D9_CreateDevice(direct3d, 0, D3DDEVTYPE_HAL, window, D3DCREATE_HARDWARE_VERTEXPROCESSING, &wanted,
+                            &device);
 #endif
     return device;
 }
@@ -112,7 +116,8 @@ int WINAPI WinMain(HINSTANCE instance, HINSTANCE before, LPSTR way, int show) {
     (void)before, (void)show, (void)way;
     WNDCLASS kind = {0, take_message, 0, 0, instance, 0, 0, 0, 0, "boxes"};
     RegisterClass(&kind);
-    HWND window = CreateWindow("boxes", "boxes", WS_OVERLAPPEDWINDOW | WS_VISIBLE, 50, 50, 320, 340, 0, 0, 0, 0);
+    HWND window =
+        CreateWindow("boxes", "boxes", WS_OVERLAPPEDWINDOW | WS_VISIBLE, 50, 50, 320, 340, 0, 0, 0, 0);
     Device* device = make_device(window);
     if (!device) return 11;
     for (int i = 0; i < 3; ++i) add_box(boxes[i]);

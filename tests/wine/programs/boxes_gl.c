@@ -17,7 +17,8 @@ static LRESULT CALLBACK take_message(HWND window, UINT message, WPARAM a, LPARAM
 
 static HWND make_window(const char* title, HWND parent, int size) {
     const DWORD style = parent ? WS_CHILD | WS_VISIBLE : WS_OVERLAPPEDWINDOW | WS_VISIBLE | WS_CLIPCHILDREN;
-    return CreateWindow("boxes", title, style, parent ? 10 : 50, parent ? 10 : 50, size, size, parent, 0, 0, 0);
+    return CreateWindow("boxes", title, style, parent ? 10 : 50, parent ? 10 : 50, size, size, parent, 0, 0,
+                        0);
 }
 
 typedef struct {
@@ -28,7 +29,8 @@ typedef struct {
 
 static Picture make_picture(HWND window) {
     Picture p = {window, GetDC(window), 0};
-    PIXELFORMATDESCRIPTOR wanted = {sizeof wanted, 1, PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER};
+    PIXELFORMATDESCRIPTOR wanted = {sizeof wanted, 1,
+                                    PFD_DRAW_TO_WINDOW | PFD_SUPPORT_OPENGL | PFD_DOUBLEBUFFER};
     wanted.iPixelType = PFD_TYPE_RGBA;
     wanted.cColorBits = 24;
     wanted.cDepthBits = 24;
