@@ -10,10 +10,10 @@ namespace glcast::preload {
 namespace {
 
 /// Wine 8.
-constexpr const char* helpers[] = {"conhost.exe",        "explorer.exe", "plugplay.exe", "rpcss.exe",
-                                   "rundll32.exe",       "services.exe", "start.exe",    "svchost.exe",
-                                   "tabtip.exe",         "wineboot.exe", "winedbg.exe",  "winedevice.exe",
-                                   "winemenubuilder.exe"};
+constexpr const char* helpers[] = {"conhost.exe",    "explorer.exe",       "iexplore.exe", "plugplay.exe",
+                                   "rpcss.exe",      "rundll32.exe",       "services.exe", "start.exe",
+                                   "svchost.exe",    "tabtip.exe",         "wineboot.exe", "winedbg.exe",
+                                   "winedevice.exe", "winemenubuilder.exe"};
 
 std::string own_file() {
     char path[4096];

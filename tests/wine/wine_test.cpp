@@ -83,7 +83,7 @@ TEST(WineFolder, is_made_before_the_time_of_the_program_begins) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("making Wine's folder " + folder / "new" + " first"), std::string::npos)
         << outcome.err;
-    EXPECT_TRUE(fs::exists(folder / "new/system.reg"));
+    EXPECT_TRUE(fs::exists(folder / "new/.update-timestamp"));
 }
 
 TEST(WineHelpers, say_nothing_where_the_variables_alone_are_set) {

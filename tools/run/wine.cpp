@@ -45,7 +45,7 @@ fs::path missing_prefix(const Options& options) {
                             : home != nullptr    ? fs::path(home) / ".wine"
                                                  : fs::path();
     std::error_code ignored;
-    return prefix.empty() || fs::exists(prefix / "system.reg", ignored) ? fs::path() : prefix;
+    return prefix.empty() || fs::exists(prefix / ".update-timestamp", ignored) ? fs::path() : prefix;
 }
 
 Environment prefix_variables(const std::string& display) {
