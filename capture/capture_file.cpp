@@ -16,7 +16,7 @@ namespace {
 
 using exr::Bytes;
 
-constexpr exr::Compression compression = exr::Compression::zip; // why: docs/capture-format.md
+constexpr exr::Compression compression = exr::Compression::zip; // why: docs/reference/capture-format.md
 
 // Alphabetical, as OpenEXR stores them. Half normals would be off by 0.02 degrees, float ones are not (docs).
 const exr::Channel channel_table[] = {{"A", true},    {"B", true},    {"G", true},

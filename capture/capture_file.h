@@ -1,4 +1,4 @@
-// Writing a capture: multi-part OpenEXR, one part per view and layer (docs/capture-format.md).
+// Writing a capture: multi-part OpenEXR, one part per view and layer (docs/reference/capture-format.md).
 #pragma once
 #include <array>
 #include <map>

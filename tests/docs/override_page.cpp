@@ -1,4 +1,4 @@
-// The page docs/overrides.md: what every override table makes of which calls, and why.
+// The page docs/reference/overrides.md: what every override table makes of which calls, and why.
 //
 //   override_page PAGE           writes it
 //   override_page PAGE --check   ends with 1 where the page is stale

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/levels.md, and its pictures, of what picture-table measured.
+"""Writes docs/measured/levels.md, and its pictures, of what picture-table measured.
 
 Usage: levels_page.py PROGRAMS.txt FOLDER DOCS KEY SIZES_KEY
 
@@ -23,7 +23,7 @@ WANTED_DB = 35
 HEAD = """# What levels of detail look like
 
 Written by `tests/pictures/make-table BUILD OUT`, all numbers by the same binaries. Each program was cast at n = {n} and the same frame drawn
-from {views} further sides at n = {fine} (`GLCAST_REFERENCE_VIEWS`, `GLCAST_REFERENCE_N`, [capture-format.md](capture-format.md)): no pixel of them
+from {views} further sides at n = {fine} (`GLCAST_REFERENCE_VIEWS`, `GLCAST_REFERENCE_N`, [capture-format.md](../reference/capture-format.md)): no pixel of them
 took part in making the cast. Each level is drawn at the same {fine} x {fine} places. Both are lit by one function (ambient .3, .45 from the camera,
 .25 from its upper left, with the normals that were drawn) on light grey. Both become 8-bit pictures of {width} x {width} pixels in the same two ways:
 
@@ -179,7 +179,7 @@ def picture(folder, name, docs):
     target = docs / "images" / f"levels-{name}.jpg"
     subprocess.run(["convert", *parts, "-resize", "300x300", "+append", "-quality", "88", "-strip", target], check=True)
     shown = ["original", "vertex colours", "textured"][: len(parts)]
-    return f"![{name}: {', '.join(shown)} at 500 triangles](images/{target.name})\n"
+    return f"![{name}: {', '.join(shown)} at 500 triangles](../images/{target.name})\n"
 
 
 def npm_version():
@@ -205,7 +205,7 @@ def main():
     head = HEAD.format(own_sizes=own_sizes, n=first["n"], views=first["views"], wanted=WANTED_DB, samples=first["samples"], width=first["width"],
                        fine=first["samples"] * first["width"], meshoptimizer=npm_version())
     notes = Path(__file__).with_name("levels_notes.md")
-    (docs / "levels.md").write_text(f"{head}{summary(measured)}\n\n## Beside other simplifiers\n\ndB, and SSIM in brackets.\n\n{beside_peers(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
+    (docs / "measured/levels.md").write_text(f"{head}{summary(measured)}\n\n## Beside other simplifiers\n\ndB, and SSIM in brackets.\n\n{beside_peers(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
 
 
 main()
