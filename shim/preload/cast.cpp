@@ -140,8 +140,9 @@ class Cast {
             return record::share_objects(*parts[a].context->shadow, *parts[b].context->shadow);
         });
         if (candidates.empty()) return nothing_solid();
-        rank(candidates, options.include, !options.list_picture.empty(),
-             [&](const Candidate& candidate) { return picture_of(candidate); });
+        draw_pictures(candidates, options.include, !options.list_picture.empty(),
+                      [&](const Candidate& candidate) { return picture_of(candidate); });
+        rank(candidates, options.include);
         const bool has_scene = is_scene(candidates.front());
         if (!has_scene && options.group == 0) return nothing_solid();
         if (options.list) return list_groups(listed);
