@@ -103,6 +103,7 @@ CaptureInfo CaptureJob::make_info() const {
     info.normals = options.normals == NormalMethod::six_lights ? "six" : "signed";
     info.glcast_version = GLCAST_VERSION;
     info.both_sides = engine.both_sides;
+    info.reversed_backs = plan.sides().are_reversed();
     info.seen_places = plan.seen_places();
     if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);
     return info;

@@ -46,10 +46,8 @@ EngineOptions CapturePlan::start_options() const {
 
 /// Where fronts and backs are told apart, both are cast.
 void CapturePlan::look_at_sides() {
-    for (const ScenePart& part : replay.parts_of(candidate)) {
-        const Sides sides = sides_of(part.scene, part.group);
-        engine.both_sides |= sides.apart, engine.culls |= sides.culled;
-    }
+    for (const ScenePart& part : replay.parts_of(candidate)) both.add(sides_of(part.scene, part.group));
+    engine.both_sides = both.are_apart(), engine.culls = both.culled;
 }
 
 /// What the draws have to do with the stencil buffer, where some are kept to places by it.

@@ -31,6 +31,7 @@ class CapturePlan {
     /// Places that are seen through culled faces, capture frame.
     const std::vector<glm::dvec3>& seen_places() const { return places; }
     const StencilPlan& stencil_plan() const { return plan; }
+    const Sides& sides() const { return both; }
 
   private:
     EngineOptions start_options() const;
@@ -44,6 +45,7 @@ class CapturePlan {
     FrameReplay& replay;
     const Options& options;
     StencilPlan plan;
+    Sides both;
     mutable ProgramStencil stencil;
     EngineOptions engine;
     std::vector<glm::dvec3> places;
