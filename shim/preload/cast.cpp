@@ -103,7 +103,7 @@ class Cast {
     Cast(const std::vector<FramePart>& frame_parts, long frame_number, const Options& of,
          const CastWindow& in)
         : parts(frame_parts), number(frame_number), options(of), window(in),
-          gl(masked_table(real_table(), of.mask)), siblings(*frame_parts.front().context) {}
+          gl(masked_table(real_table(), of.mask)), siblings(*frame_parts.front().context, in.at_rest) {}
 
     /// Textures that replays have made lie in the program's share group.
     ~Cast() {
