@@ -405,6 +405,13 @@ class Cast {
         if (window.unanswered > 0)
             not_understood["questions about windows that the X server did not answer in time"] =
                 window.unanswered;
+        if (window.unseen > 0) {
+            not_understood["later frames, too fast to be recorded before their time: the window may show another "
+                           "picture"] = window.unseen;
+            say_once("frame %ld is cast, the last with solid geometry that was recorded: %ld came after it too fast "
+                     "to be recorded before their time, and the window may show another picture",
+                     number, window.unseen);
+        }
         CaptureInfo info = make_info(number, options, engine, gl);
         info.seen_places = seen_places;
         if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);

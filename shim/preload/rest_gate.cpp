@@ -28,6 +28,11 @@ bool RestGate::pass() {
     return true;
 }
 
+void RestGate::reopen() {
+    const std::lock_guard lock(mutex);
+    ended = false;
+}
+
 void RestGate::close_for_good() {
     std::unique_lock lock(mutex);
     ended = true;

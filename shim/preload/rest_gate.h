@@ -21,8 +21,9 @@ class RestGate {
     void open();
     /// By a thread of the program's. True for the first after a cast: it is to put away what the cast has used.
     bool pass();
-    /// Waits for the cast that is on; none begins afterwards.
+    /// Waits for the cast that is on; none begins afterwards, until it is opened again.
     void close_for_good();
+    void reopen();
 
   private:
     std::mutex mutex; ///< guards what follows

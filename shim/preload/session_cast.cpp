@@ -261,7 +261,7 @@ enum class Looked {
 };
 
 Looked cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window,
-                  long number, FrameEnd end) {
+                    long number, FrameEnd end, long unseen = 0) {
     if (s.casting.exchange(true)) return Looked::passed; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
@@ -273,6 +273,7 @@ Looked cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeConte
     auto turn = take_turn(s, *parts.front().context, window.second, end);
     if (!turn) return Looked::passed;
     turn->at_rest = end == FrameEnd::at_rest;
+    turn->unseen = unseen;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
     if (end == FrameEnd::shown && s.read_is_open.exchange(false) && nothing) s.triggers.taken(); // it stays
@@ -318,10 +319,12 @@ bool cast_standing(Session& s, const NativeContext* current, FrameEnd end) {
     bool any = false;
     for (StandingPicture& picture : pictures) {
         if (!s.triggers.waiting() || !is_asked_for(s, picture)) continue;
+        if (end == FrameEnd::at_rest && picture.unseen > 0) continue; // it is another that stands there
         keep_of_this_display(picture.parts);
         Looked looked = Looked::passed;
         on_own_stack(HeldSignals::handled, [&] {
-            looked = cast_or_pass(s, picture.parts, current, picture.window, picture.number, end);
+            looked = cast_or_pass(s, picture.parts, current, picture.window, picture.number, end,
+                                  picture.unseen);
         });
         if (looked == Looked::nothing) {
             const std::lock_guard lock(s.mutex);

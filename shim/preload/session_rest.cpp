@@ -1,9 +1,15 @@
 // A program that draws nothing new: what stands in its window is kept, and cast on a thread of our own when a
 // frame is wanted (docs/architecture.md, "A program at rest").
+#include <dlfcn.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
+#include "shim/preload/real.h"
 #include "shim/preload/session_state.h"
+
+extern "C" void* __dso_handle;
 
 namespace glcast::preload {
 namespace {
@@ -39,6 +45,31 @@ void destroy_spent_siblings(Session& s) {
     for (const auto& [context, sibling] : spent) context->system->destroy(context->display, sibling);
 }
 
+void wait_at_exit() {
+    if (Session* s = session_if_any(); s && s->is_ours()) s->gate.close_for_good();
+}
+
+constinit thread_local bool waits_at_exit [[gnu::tls_model("initial-exec")]] = false;
+
+/// A driver that is in use on our thread must not be taken down by exit(). The first that exit() calls is what
+/// thread-local objects of its thread ask for. What atexit() keeps comes later, and what Mesa and LLVM
+/// registered with that while they drew, before ours. Where the thread ends and not the process, the gate
+/// opens again with the next frame.
+void wait_when_this_thread_exits() {
+    using Register = int(void (*)(void*), void*, void*);
+    static const auto at_thread_exit = // glibc 2.18
+        reinterpret_cast<Register*>(real_dlsym()(RTLD_DEFAULT, "__cxa_thread_atexit_impl"));
+    if (waits_at_exit || !at_thread_exit) return;
+    waits_at_exit = true;
+    at_thread_exit([](void*) { wait_at_exit(); }, nullptr, &__dso_handle);
+}
+
+/// The main thread, which most often ends the process, need not be one that draws.
+[[gnu::constructor]] void watch_main_thread() noexcept {
+    for (const char* const name : {"GLCAST_AFTER", "GLCAST_KEY", "GLCAST_SIGNAL"})
+        if (std::getenv(name)) return wait_when_this_thread_exits();
+}
+
 /// While it lives, the program's threads wait where they call GL, and where they end the process.
 class ProgramStands {
   public:
@@ -53,9 +84,6 @@ class ProgramStands {
     explicit operator bool() const { return stands; }
 
   private:
-    static void wait_at_exit() {
-        if (Session* s = session_if_any(); s && s->is_ours()) s->gate.close_for_good();
-    }
     Session& s;
     bool stands;
 };
@@ -64,6 +92,21 @@ bool is_at_rest(Session& s) {
     if (!s.triggers.waiting() || !is_late_enough(s) || s.holding || s.casting) return false;
     const std::lock_guard lock(s.mutex);
     return !s.standing.empty() && s.pace.is_still(Clock::now());
+}
+
+/// A burst of frames was too long to be kept, and nothing comes after it.
+void tell_of_unseen(Session& s) {
+    long unseen = 0;
+    {
+        const std::lock_guard lock(s.mutex);
+        for (const StandingPicture& picture : s.standing.all()) unseen = std::max(unseen, picture.unseen);
+    }
+    if (unseen == 0 || s.has_told_of_unseen) return;
+    s.has_told_of_unseen = true;
+    const char* const why = "the program draws nothing new, and its last frames came too fast to be recorded before "
+                            "they were asked for: its next one is cast (--nudge makes it draw)";
+    if (speaks_alone()) say("%s", why);
+    tell("waits", why);
 }
 
 } // namespace
@@ -82,8 +125,10 @@ void keep_standing(Session& s, std::vector<FramePart> parts, FrameKey window, lo
     if (!s.keeps_standing() || s.triggers.over()) return;
     if (parts.empty()) {
         const std::lock_guard lock(s.mutex);
-        return s.standing.forget(window.second);
+        return s.standing.show_unseen(window.second);
     }
+    wait_when_this_thread_exits();
+    s.gate.reopen();
     StandingPicture picture = make_standing_picture(std::move(parts), window, number);
     {
         const std::lock_guard lock(s.mutex);
@@ -109,7 +154,7 @@ void make_ready_for_rest(Session& s) {
 void cast_at_rest(Session& s) {
     if (!s.is_ours() || !is_at_rest(s)) return;
     const ProgramStands stands(s);
-    if (stands) cast_standing(s, nullptr, FrameEnd::at_rest);
+    if (stands && !cast_standing(s, nullptr, FrameEnd::at_rest)) tell_of_unseen(s);
 }
 
 } // namespace glcast::preload

@@ -60,6 +60,7 @@ struct Session {
     std::atomic<long> frames{0};
     std::atomic<Clock::time_point> start{}; ///< of GL: when the first context was made current
     RestGate gate;
+    bool has_told_of_unseen = false; ///< of our own thread
 
     /// The picture that stands in the window is wanted as well as the next frame.
     bool keeps_standing() const {

@@ -55,9 +55,8 @@ void StandingPictures::show(StandingPicture picture, std::size_t most_bytes) {
     }
 }
 
-void StandingPictures::forget(std::uintptr_t drawable) {
-    std::erase_if(pictures,
-                  [&](const StandingPicture& picture) { return picture.window.second == drawable; });
+void StandingPictures::show_unseen(std::uintptr_t drawable) {
+    for (StandingPicture& picture : pictures) picture.unseen += picture.window.second == drawable;
 }
 
 void StandingPictures::forget_display(const void* display) {

@@ -38,6 +38,7 @@ struct StandingPicture {
     long filled = 0;    ///< vertices
     bool hides = false; ///< nothing of an earlier frame is seen behind it
     std::size_t bytes = 0;
+    long unseen = 0; ///< frames that ended later in that window and were not recorded
 };
 /// Of the frame that ended in `window`.
 StandingPicture make_standing_picture(std::vector<FramePart> parts, FrameKey window, long number);
@@ -46,8 +47,8 @@ class StandingPictures {
   public:
     /// Those that are no longer seen, or could be replaced, go. Of the others no more than `most_bytes` stay.
     void show(StandingPicture picture, std::size_t most_bytes);
-    /// What has come into the window nobody knows.
-    void forget(std::uintptr_t drawable);
+    /// Something has come into the window that was not recorded.
+    void show_unseen(std::uintptr_t drawable);
     void forget_display(const void* display);
     /// It has no solid geometry.
     void forget_frame(FrameKey window, long number);

@@ -28,7 +28,7 @@ class Census {
         look(frame.prologue, 0);
         found = {}; // but for what is switched on
         look(frame.calls, 0);
-        found.shows_images |= textures;
+        found.shows_images |= textures || programs;
         for (const auto& [what, times] : frame.not_understood)
             found.shows_images |= what.starts_with("a draw under");
         return found;
@@ -87,6 +87,9 @@ class Census {
         case GlCall::EvalMesh2:
             found.filled += a_few;
             return;
+        case GlCall::UseProgram:
+            programs |= reader.get<GLuint>() != 0;
+            return;
         case GlCall::ListBase:
             base = reader.get<GLuint>();
             return;
@@ -121,7 +124,7 @@ class Census {
     std::unordered_map<GLuint, List> lists;
     FrameContents found;
     GLuint base = 0;
-    bool fills = false, scissors = false, textures = false;
+    bool fills = false, scissors = false, textures = false, programs = false;
 };
 
 } // namespace
