@@ -1,5 +1,5 @@
-// The program stands still while a picture at rest is cast, as it does when a frame of its own is: its threads
-// wait where they next call GL.
+// The program stands still while a picture at rest is cast, as it does when a frame of its own is: its
+// threads wait where they next call GL.
 #pragma once
 #include <atomic>
 #include <condition_variable>
@@ -16,10 +16,12 @@ inline bool calls_wait_at_gate() { return detail::gate_is_watched.load(std::memo
 
 class RestGate {
   public:
-    /// By the thread that casts. False where the process is ending. All calls of GL come to pass() from now on.
+    /// By the thread that casts. False where the process is ending. All calls of GL come to pass() from now
+    /// on.
     bool close();
     void open();
-    /// By a thread of the program's. True for the first after a cast: it is to put away what the cast has used.
+    /// By a thread of the program's. True for the first after a cast: it is to put away what the cast has
+    /// used.
     bool pass();
     /// Waits for the cast that is on; none begins afterwards, until it is opened again.
     void close_for_good();

@@ -282,15 +282,6 @@ Looked cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeConte
     return nothing ? Looked::nothing : Looked::done;
 }
 
-/// A key or a signal asks for what stands there, be it the second time; else each frame is cast once.
-bool is_asked_for(Session& s, const StandingPicture& picture) {
-    if (picture.number < s.options.frame) return false;
-    if (!s.options.key.empty() || s.options.signal != 0) return true;
-    const std::lock_guard lock(s.mutex);
-    const auto ended = s.ended.find(picture.window);
-    return ended == s.ended.end() || picture.number >= ended->second.next_wish;
-}
-
 void give_back_memory() {
     record::give_back_spare_memory();
     malloc_trim(0); // images, and the driver's textures, would stay in the program's heap
@@ -308,6 +299,14 @@ void count_first_read(Session& s) {
     }
     if (is_cast) s.triggers.taken();
     update_unwanted(s);
+}
+
+bool is_asked_for(Session& s, const StandingPicture& picture) {
+    if (picture.number < s.options.frame) return false;
+    if (!s.options.key.empty() || s.options.signal != 0) return true;
+    const std::lock_guard lock(s.mutex);
+    const auto ended = s.ended.find(picture.window);
+    return ended == s.ended.end() || picture.number >= ended->second.next_wish;
 }
 
 bool cast_standing(Session& s, const NativeContext* current, FrameEnd end) {

@@ -51,8 +51,8 @@ void wait_at_exit() {
 
 constinit thread_local bool waits_at_exit [[gnu::tls_model("initial-exec")]] = false;
 
-/// A driver that is in use on our thread must not be taken down by exit(). The first that exit() calls is what
-/// thread-local objects of its thread ask for. What atexit() keeps comes later, and what Mesa and LLVM
+/// A driver that is in use on our thread must not be taken down by exit(). The first that exit() calls is
+/// what thread-local objects of its thread ask for. What atexit() keeps comes later, and what Mesa and LLVM
 /// registered with that while they drew, before ours. Where the thread ends and not the process, the gate
 /// opens again with the next frame.
 void wait_when_this_thread_exits() {
@@ -88,25 +88,43 @@ class ProgramStands {
     bool stands;
 };
 
-bool is_at_rest(Session& s) {
-    if (!s.triggers.waiting() || !is_late_enough(s) || s.holding || s.casting) return false;
+/// What stands in the windows, where one is wanted and nothing new comes.
+std::vector<StandingPicture> stands_at_rest(Session& s) {
+    if (!s.triggers.waiting() || !is_late_enough(s) || s.holding || s.casting) return {};
     const std::lock_guard lock(s.mutex);
-    return !s.standing.empty() && s.pace.is_still(Clock::now());
+    return s.pace.is_still(Clock::now()) ? s.standing.all() : std::vector<StandingPicture>();
 }
 
-/// A burst of frames was too long to be kept, and nothing comes after it.
-void tell_of_unseen(Session& s) {
-    long unseen = 0;
-    {
-        const std::lock_guard lock(s.mutex);
-        for (const StandingPicture& picture : s.standing.all()) unseen = std::max(unseen, picture.unseen);
+/// That nothing can be cast before the next frame.
+void tell_once(Session& s, const std::string& why) {
+    if (std::exchange(s.has_told_of_rest, true)) return;
+    const std::string text =
+        "the program draws nothing new, and " + why + ": its next frame is cast (--nudge makes it draw)";
+    if (speaks_alone()) say("%s", text.c_str());
+    tell("waits", text);
+}
+
+std::vector<StandingPicture> castable_at_rest(Session& s) {
+    auto pictures = stands_at_rest(s);
+    const auto unseen =
+        std::erase_if(pictures, [](const StandingPicture& picture) { return picture.unseen > 0; });
+    if (unseen > 0 && pictures.empty())
+        tell_once(s, "its last frames came too fast to be recorded before they were asked for");
+    std::erase_if(pictures, [&](const StandingPicture& picture) { return !is_asked_for(s, picture); });
+    return pictures;
+}
+
+/// On our own thread with no drawable, which not every driver has.
+bool can_be_current(const std::vector<StandingPicture>& pictures) {
+    std::set<NativeContext*> contexts;
+    for (const StandingPicture& picture : pictures)
+        for (const FramePart& part : picture.parts) contexts.insert(part.context.get());
+    bool all = true;
+    for (NativeContext* context : contexts) {
+        all &= context->sibling && context->system->bind_alone(context->display, context->sibling);
+        context->system->bind_alone(context->display, nullptr);
     }
-    if (unseen == 0 || s.has_told_of_unseen) return;
-    s.has_told_of_unseen = true;
-    const char* const why = "the program draws nothing new, and its last frames came too fast to be recorded before "
-                            "they were asked for: its next one is cast (--nudge makes it draw)";
-    if (speaks_alone()) say("%s", why);
-    tell("waits", why);
+    return all;
 }
 
 } // namespace
@@ -143,7 +161,8 @@ void make_ready_for_rest(Session& s) {
         const std::lock_guard lock(s.mutex);
         for (const StandingPicture& picture : s.standing.all())
             for (const FramePart& part : picture.parts)
-                if (!part.context->destroyed && is_of_this_display(*part.context)) contexts.insert(part.context);
+                if (!part.context->destroyed && is_of_this_display(*part.context))
+                    contexts.insert(part.context);
     }
     for (const auto& context : contexts) {
         context->system->watch_display(context->display, display_closes);
@@ -152,9 +171,16 @@ void make_ready_for_rest(Session& s) {
 }
 
 void cast_at_rest(Session& s) {
-    if (!s.is_ours() || !is_at_rest(s)) return;
+    if (!s.is_ours() || s.needs_program_thread || castable_at_rest(s).empty()) return;
     const ProgramStands stands(s);
-    if (stands && !cast_standing(s, nullptr, FrameEnd::at_rest)) tell_of_unseen(s);
+    if (!stands) return;
+    // Asked again: until the gate was closed the program may have closed its connection.
+    if (can_be_current(castable_at_rest(s))) {
+        cast_standing(s, nullptr, FrameEnd::at_rest);
+    } else {
+        s.needs_program_thread = true;
+        tell_once(s, "this driver casts only on its thread");
+    }
 }
 
 } // namespace glcast::preload

@@ -60,7 +60,7 @@ struct Session {
     std::atomic<long> frames{0};
     std::atomic<Clock::time_point> start{}; ///< of GL: when the first context was made current
     RestGate gate;
-    bool has_told_of_unseen = false; ///< of our own thread
+    bool has_told_of_rest = false, needs_program_thread = false; ///< of our own thread
 
     /// The picture that stands in the window is wanted as well as the next frame.
     bool keeps_standing() const {
@@ -141,6 +141,8 @@ void count_first_read(Session& s);
 /// be empty. `current`, where not null, is current on this thread.
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number, FrameEnd end);
+/// A key or a signal asks for what stands there, be it the second time; else each frame is cast once.
+bool is_asked_for(Session& s, const StandingPicture& picture);
 /// Casts what stands, the last first, until nothing more is wanted. Whether anything came of it.
 bool cast_standing(Session& s, const NativeContext* current, FrameEnd end);
 

@@ -45,8 +45,8 @@ void call_before_close(void* display, void (*gone)(void*)) {
         watched().gone = gone;
         if (!watched().displays.insert(display).second) return;
     }
-    // An extension of the client's alone: the server hears nothing of it. The one that came last is called first,
-    // and so before that of the GL library.
+    // An extension of the client's alone: the server hears nothing of it. The one that came last is called
+    // first, and so before that of the GL library.
     static const auto add = find<decltype(::XAddExtension)>("XAddExtension");
     using Close = int (*)(Display*, XExtCodes*); // Xlibint.h, which defines min and max
     static const auto set_close = find<Close(Display*, int, Close)>("XESetCloseDisplay");

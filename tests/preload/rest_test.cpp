@@ -1,13 +1,12 @@
-// Programs that draw nothing new: what stands in their window is cast, when the time has come, at a signal, at a
-// key.
+// Programs that draw nothing new: what stands in their window is cast, when the time has come, at a signal,
+// at a key.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
+#include "tests/preload/key_presser.h"
 #include "tests/preload/program_run.h"
 
 namespace glcast::test {
@@ -40,17 +39,17 @@ TEST_P(AtRest, is_cast_at_each_signal) {
     EXPECT_EQ(run.outcome.out, "cast 3 times\n") << run.outcome.err;
 }
 INSTANTIATE_TEST_SUITE_P(Rest, AtRest,
-                         testing::Values("swap", "expose", "front", "front-marks", "picture-marks", "composite",
-                                         "egl"),
+                         testing::Values("swap", "expose", "front", "front-marks", "picture-marks",
+                                         "composite", "egl"),
                          test_name);
 
 /// The toolkit goes on to show its picture, faster than is recorded.
 TEST(Rest, of_a_body_whose_picture_is_shown_again_and_again_is_cast_with_a_line) {
-    const CastRun run =
-        cast_program({RESTS, "composites"}, n, {{"GLCAST_AFTER", "1"}, {"GLCAST_QUIT", "1"}});
+    const CastRun run = cast_program({RESTS, "composites"}, n, {{"GLCAST_AFTER", "1"}, {"GLCAST_QUIT", "1"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(volume(*run.capture), body, grid * body);
-    EXPECT_NE(run.outcome.err.find("the window may show another picture"), std::string::npos) << run.outcome.err;
+    EXPECT_NE(run.outcome.err.find("the window may show another picture"), std::string::npos)
+        << run.outcome.err;
 }
 
 /// Runs until the line comes, or the program ends.
@@ -66,11 +65,25 @@ std::string told_at_rest(const std::string& way, Environment environment) {
 TEST(Rest, casts_nothing_that_has_been_cleared_away) { told_at_rest("cleared", {{"GLCAST_AFTER", "0.5"}}); }
 
 TEST(Rest, after_many_frames_at_once_casts_none_of_the_first_and_says_why) {
-    EXPECT_NE(told_at_rest("burst", {{"GLCAST_AFTER", "1"}}).find("--nudge makes it draw"), std::string::npos);
+    EXPECT_NE(told_at_rest("burst", {{"GLCAST_AFTER", "1"}}).find("--nudge makes it draw"),
+              std::string::npos);
 }
 
 TEST(Nudge, brings_windows_back_to_the_screen) {
     expect_the_body(cast_program({RESTS, "mapped"}, n, {{"GLCAST_NUDGE", "1"}, {"GLCAST_QUIT", "1"}}));
+}
+
+TEST(Rest, is_cast_at_each_press_of_the_key) {
+    x_server();
+    const KeyPresser presser;
+    const CastRun run = cast_program({RESTS, "swap"}, n,
+                                     {{"GLCAST_KEY", "F12"}, {"GLCAST_CAPTURES", "2"}, {"GLCAST_QUIT", "1"}});
+    expect_the_body(run);
+    const auto lines = glcast_lines(run.outcome);
+    EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                            [](const std::string& line) { return line.starts_with("captured frame 1 "); }),
+              2)
+        << run.outcome.err;
 }
 
 /// What the program does while it is cast.

@@ -1,7 +1,6 @@
-/* Programs that draw, and then rest for ever, or until they have been cast: rests WAY [then]. The body is that of
- * chiral.h.
- *   then: signals TIMES (and for each a new cast is waited for), exit, close, draw
- * What comes of it is printed. */
+/* Programs that draw, and then rest for ever, or until they have been cast: rests WAY [then]. The body is
+ * that of chiral.h. then: signals TIMES (and for each a new cast is waited for), exit, close, draw What comes
+ * of it is printed. */
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <pthread.h>
@@ -157,9 +156,9 @@ static void burst(void) {
 static void egl(void) {
     window = make_window(size, size);
     EGLDisplay with = eglGetDisplay((EGLNativeDisplayType)display);
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                             EGL_DEPTH_SIZE,   16,             EGL_NATIVE_VISUAL_ID, visual->visualid,
-                             EGL_NONE};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE,     EGL_WINDOW_BIT,   EGL_RENDERABLE_TYPE,
+                             EGL_OPENGL_BIT,       EGL_DEPTH_SIZE,   16,
+                             EGL_NATIVE_VISUAL_ID, visual->visualid, EGL_NONE};
     EGLConfig configs[64];
     EGLint count = 0, at = 0, id = 0;
     if (!eglInitialize(with, 0, 0) || !eglBindAPI(EGL_OPENGL_API)) exit(13);
@@ -168,7 +167,8 @@ static void egl(void) {
            (VisualID)id != visual->visualid)
         ++at;
     EGLSurface surface = eglCreateWindowSurface(with, configs[at], (EGLNativeWindowType)window, 0);
-    if (!eglMakeCurrent(with, surface, surface, eglCreateContext(with, configs[at], EGL_NO_CONTEXT, 0))) exit(15);
+    if (!eglMakeCurrent(with, surface, surface, eglCreateContext(with, configs[at], EGL_NO_CONTEXT, 0)))
+        exit(15);
     body();
     eglSwapBuffers(with, surface);
 }
