@@ -168,6 +168,7 @@ class Cast {
     bool has_drawn = false, has_only_looked = false;
     mutable ProgramStencil stencil;
     StencilPlan stencil_plan;
+    Sides sides; ///< of the candidate that is being cast
 
     /// Asked of GL itself: glvnd has the entry points in any case.
     bool draws_into_framebuffers() {
@@ -276,11 +277,12 @@ class Cast {
         engine.eye_to_capture =
             choose_eye_to_capture({group.base_modelview, group.is_mirrored() != group.turned_round}, options);
         engine.stencil = follow_stencil(candidate);
+        sides = {};
         for (std::size_t part = 0; part < parts.size(); ++part) {
             if (candidate.in_part[part] < 0) continue;
-            const Sides sides = sides_of(scenes[part], candidate.in_part[part]);
-            engine.both_sides |= sides.apart, engine.culls |= sides.culled;
+            sides.add(sides_of(scenes[part], candidate.in_part[part]));
         }
+        engine.both_sides = sides.are_apart(), engine.culls = sides.culled;
         const Include& include = options.include;
         const DrawFunction as_drawn = drawing(candidate, {.lines = include.lines, .points = include.points});
         engine.box = options.box ? options.box : find_scene_box(gl, as_drawn, group, engine);
@@ -413,6 +415,7 @@ class Cast {
                      number, window.unseen);
         }
         CaptureInfo info = make_info(number, options, engine, gl);
+        info.reversed_backs = sides.are_reversed();
         info.seen_places = seen_places;
         if (group.kind == ProjectionKind::perspective) info.eye = eye_of(group, engine.eye_to_capture);
         info.not_understood = std::move(not_understood);

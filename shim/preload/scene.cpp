@@ -145,18 +145,22 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     return draw.before_depth ? backdrops && draw.writes_colour : draw.tests_depth;
 }
 
+void Sides::add(const Sides& more) {
+    coloured |= more.coloured, culled |= more.culled;
+    lit_on_both |= more.lit_on_both, lit_as_front |= more.lit_as_front;
+}
+
 Sides sides_of(const Scene& scene, int group) {
     Sides sides;
     std::set<long> by_culled[2]; // triangles of draws without fronts, without backs
     for (const Draw& draw : scene.draws) {
         if (draw.group != group || !is_solid(draw, scene.groups[group], false)) continue;
-        sides.apart |= draw.two_colours;
+        sides.add({draw.two_colours, false, draw.lit_on_both, draw.lit_as_front});
         if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
             by_culled[draw.culled == GL_BACK].insert(draw.triangles);
     }
     for (const long triangles : by_culled[0])
         sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
-    sides.apart |= sides.culled;
     return sides;
 }
 

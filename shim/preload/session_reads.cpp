@@ -1,4 +1,4 @@
-// Frames that end where they are read, and drawables that no swap shows (docs/architecture.md, "Where a frame
+// Frames that end where they are read, and drawables that no swap shows (docs/design/architecture.md, "Where a frame
 // ends").
 #include <algorithm>
 #include <utility>

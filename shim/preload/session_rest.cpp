@@ -1,5 +1,5 @@
 // A program that draws nothing new: what stands in its window is kept, and cast on a thread of our own when a
-// frame is wanted (docs/architecture.md, "A program at rest").
+// frame is wanted (docs/design/architecture.md, "A program at rest").
 #include <dlfcn.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The pictures that stand in the windows of a program that draws seldom: its last whole frames, kept until
-// one is asked for (docs/architecture.md, "A program at rest").
+// one is asked for (docs/design/architecture.md, "A program at rest").
 #pragma once
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,7 @@
 """What gl.xml does not say about entry points: how each is recorded.
 
 Names are regular expressions without the gl prefix, matched in full against the core name (glFooARB follows glFoo where
-the registry calls it an alias). The first row that matches decides. docs/adding-a-gl-call.md explains the classes:
+the registry calls it an alias). The first row that matches decides. docs/design/adding-a-gl-call.md explains the classes:
 
   plain     recorded with its arguments and what they point at, and played
   custom    record function by hand (shim/record/*.cpp, namespace custom)
@@ -76,7 +76,7 @@ CLASSES = [
     ("once", r"GetError GetString"),
 ]
 
-# Why calls are passed through: the words of docs/entry-points.md. The first row that matches; every call of the classes
+# Why calls are passed through: the words of docs/reference/entry-points.md. The first row that matches; every call of the classes
 # once, packs, arrays, ignored, bound_buffer and named_buffer that the page lists needs one.
 REASONS = [
     ("asks, and changes nothing", r"Get[A-Z].* Is[A-Z].* Check[A-Z].* Are[A-Z].* Test[A-Z].*"),

@@ -1,12 +1,12 @@
-// docs/tutorial.md: casts of three programs on one floor, each drawn by the coarsest level that is good enough from where one looks.
+// docs/guide/tutorial.md: casts of three programs on one floor, each drawn by the coarsest level that is good enough from where one looks.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 const casts = [ // file, place on the floor, how to stand it up
-  { file: '../../out/gears.glb', x: -2.3, turn: [0, 0.5, 0] },
-  { file: '../../out/rings.glb', x: 0, turn: [Math.PI, 0.4, 0] },
-  { file: '../../out/cow.glb', x: 2.3, turn: [0, -0.6, 0] },
+  { file: '../../../out/gears.glb', x: -2.3, turn: [0, 0.5, 0] },
+  { file: '../../../out/rings.glb', x: 0, turn: [Math.PI, 0.4, 0] },
+  { file: '../../../out/cow.glb', x: 2.3, turn: [0, -0.6, 0] },
 ];
 
 /** All levels of a .glb: three.js loads the first, MSFT_lod names the others. */

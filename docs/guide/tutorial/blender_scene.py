@@ -1,4 +1,4 @@
-"""docs/tutorial.md: three casts in Blender, rendered by Cycles.
+"""docs/guide/tutorial.md: three casts in Blender, rendered by Cycles.
 
 Usage: blender -b --python blender_scene.py -- A.glb B.glb C.glb OUT.png
 """
