@@ -125,7 +125,8 @@ GLCAST_EXPORT EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, 
     const bool desktop = real().eglQueryAPI() == EGL_OPENGL_API;
     std::optional<std::vector<int>> refused;
     if (desktop && outermost)
-        refused = refused_attributes(attributes, EGL_NONE, EGL_CONTEXT_MAJOR_VERSION, EGL_CONTEXT_MINOR_VERSION);
+        refused =
+            refused_attributes(attributes, EGL_NONE, EGL_CONTEXT_MAJOR_VERSION, EGL_CONTEXT_MINOR_VERSION);
     const EGLContext context =
         real().eglCreateContext(display, config, share, refused ? refused->data() : attributes);
     if (!context || !outermost) return context;

@@ -104,22 +104,25 @@ int read_signals(int signals) {
     return number;
 }
 
-/// wined3d asks for a core profile unless it is told otherwise when it starts; a program of ours may start again.
+/// wined3d asks for a core profile unless it is told otherwise when it starts; a program of ours may start
+/// again.
 bool draws_by_direct3d(const Options& options, const Seen& seen) {
-    return is_wine(options) && (options.quit || options.headless) && !options.direct3d && options.pretend.empty() &&
-           seen.captures.empty() && principal(seen).refused.starts_with("a core profile");
+    return is_wine(options) && (options.quit || options.headless) && !options.direct3d &&
+           options.pretend.empty() && seen.captures.empty() &&
+           principal(seen).refused.starts_with("a core profile");
 }
 
 /// Wine's folder, which takes its time to be made, does not use up the program's.
 std::string make_prefix(const Options& options, const fs::path& wine, const Display& display, int signals) {
     const fs::path prefix = missing_prefix(options);
     if (prefix.empty()) return {};
-    std::cerr << glcast::printable("glcast-run: making Wine's folder " + prefix.string() + " first") << std::endl;
+    std::cerr << glcast::printable("glcast-run: making Wine's folder " + prefix.string() + " first")
+              << std::endl;
     Program boot(false);
     boot.spare(display.pid());
     const std::vector<std::string> command = {options.program[0], "wineboot", "-i"};
-    if (const std::string trouble =
-            boot.start(wine, command, prefix_variables(options.headless ? display.name() : ""), STDERR_FILENO);
+    if (const std::string trouble = boot.start(
+            wine, command, prefix_variables(options.headless ? display.name() : ""), STDERR_FILENO);
         !trouble.empty())
         return trouble;
     for (boot.reap(); boot.wait_status() < 0; boot.reap()) {
@@ -281,7 +284,9 @@ int run(const Options& options) {
 int run_as_it_draws(Options options) {
     const int status = run(options);
     if (status != start_again) return status;
-    std::cerr << "glcast-run: it draws by a core profile, as Direct3D does under Wine: starting it again with --direct3d" << std::endl;
+    std::cerr << "glcast-run: it draws by a core profile, as Direct3D does under Wine: starting it again "
+                 "with --direct3d"
+              << std::endl;
     options.direct3d = true;
     return run(options);
 }

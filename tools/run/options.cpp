@@ -251,9 +251,10 @@ void declare(CLI::App& app, Options& o) {
                    "Tell PROGRAM of this version of OpenGL, and of no shaders: some draw without them then")
         ->envname("GLCAST_PRETEND")
         ->check(CLI::IsMember({"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "2.0", "2.1"}));
-    app.add_flag("--direct3d", o.direct3d,
-                 "Of Wine: let Direct3D 8 and 9 draw by fixed functions (by itself with --quit or --headless, where "
-                 "nothing else is drawn)");
+    app.add_flag(
+        "--direct3d", o.direct3d,
+        "Of Wine: let Direct3D 8 and 9 draw by fixed functions (by itself with --quit or --headless, where "
+        "nothing else is drawn)");
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,

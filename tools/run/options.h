@@ -26,7 +26,7 @@ struct Options {
     std::string frame_matrix; ///< eye, base, 16 numbers, or empty
     int group = 0;            ///< from 1; 0: the one with most triangles
     std::string window;       ///< number, title or X id; empty: the one that shows most
-    bool direct3d = false;      ///< wined3d is to draw by fixed functions
+    bool direct3d = false;    ///< wined3d is to draw by fixed functions
     bool headless = false;
     bool quit = false; ///< end the program after the capture; `list` implies it
     bool list = false;
