@@ -87,6 +87,13 @@ std::map<std::string, long> CaptureJob::not_understood() const {
         say_once("not understood: %s (%ld in this frame)", what.c_str(), times);
     if (window.unanswered > 0)
         all["questions about windows that the X server did not answer in time"] = window.unanswered;
+    if (window.unseen > 0) {
+        all["later frames, too fast to be recorded before their time: the window may show another picture"] =
+            window.unseen;
+        say_once("frame %ld is cast, the last with solid geometry that was recorded: %ld came after it too fast "
+                 "to be recorded before their time, and the window may show another picture",
+                 number, window.unseen);
+    }
     return all;
 }
 

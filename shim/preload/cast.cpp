@@ -75,7 +75,7 @@ CastResult cast_frame(const std::vector<FramePart>& parts, long number, const Op
     CastResult result;
     try {
         Patience patience(options.most_seconds, patience_lines());
-        FrameReplay replay(parts, options, patience);
+        FrameReplay replay(parts, options, patience, window.at_rest);
         try {
             result = look_and_cast(replay, number, options, window, listed);
         } catch (const std::exception& error) {

@@ -14,8 +14,8 @@ namespace glcast::preload {
 
 class FrameReplay {
   public:
-    /// All must outlive it. `of` is not empty.
-    FrameReplay(const std::vector<FramePart>& of, const Options& options, Patience& patience);
+    /// All must outlive it. `of` is not empty. `at_rest`: as in CastWindow.
+    FrameReplay(const std::vector<FramePart>& of, const Options& options, Patience& patience, bool at_rest);
 
     /// Asked of GL itself: glvnd has the entry points in any case.
     bool can_draw();
