@@ -42,7 +42,7 @@ timeout 60 "$root/usr/bin/glcast" mesh a.exr -o a.glb || fail "glcast mesh faile
 timeout 60 "$root/usr/bin/glcast" info a.glb --json >info.json || fail "glcast info failed"
 grep -q '"closedManifold": true' info.json || fail "no closed mesh" # no pipe: grep -q would close it early
 timeout 60 "$root/usr/bin/glcast" render a.glb -o a.png --size 32 || fail "glcast render failed"
-sh "$source/tests/package/consumer.sh" "$root/usr" "$source" "$work/consumer" || fail "the CMake package does not work"
+sh "$source/tests/package/consumer.sh" "$root/usr" "$source" "$work/consumer" "$work/a.exr" || fail "the CMake package does not work"
 
 # Removed.
 "${as_root[@]}" dpkg --root="$root" --force-not-root --no-triggers --purge glcast libglcast-dev >"$work/log" 2>&1 ||
