@@ -18,6 +18,7 @@
 #include "shim/preload/contact_sheet.h"
 #include "shim/preload/left_out.h"
 #include "shim/preload/mask.h"
+#include "shim/preload/masked_faces.h"
 #include "shim/preload/patience.h"
 #include "shim/preload/real.h"
 #include "shim/preload/seen_through.h"
@@ -308,17 +309,23 @@ class Cast {
             StencilPlan plan = plan_stencil(scenes[part], group);
             judge(gl, *parts[part].frame, scenes[part], group, plan);
             stencil_plan.kept += plan.kept, stencil_plan.unfollowed += plan.unfollowed;
+            stencil_plan.unanswered += plan.unanswered;
         }
         return stencil_plan.kept > 0 ? &stencil : nullptr;
+    }
+
+    std::vector<ScenePart> parts_of(const Candidate& candidate) {
+        std::vector<ScenePart> of;
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (candidate.in_part[part] >= 0)
+                of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
+        return of;
     }
 
     /// Leaves backdrops and outlines out, and finds the box anew. Places that are seen through culled faces.
     std::vector<glm::dvec3> look_through(const Candidate& candidate, const DrawFunction& as_drawn,
                                          EngineOptions& engine) {
-        std::vector<ScenePart> of;
-        for (std::size_t part = 0; part < parts.size(); ++part)
-            if (candidate.in_part[part] >= 0)
-                of.push_back({*parts[part].frame, scenes[part], candidate.in_part[part]});
+        const std::vector<ScenePart> of = parts_of(candidate);
         const auto see = [&] { return see_through(gl, drawing(candidate, {}), candidate.group, engine); };
         SeenThrough seen;
         if (of.size() == 1 && !engine.stencil && may_see_through(of[0].scene, of[0].group)) seen = see();
@@ -362,7 +369,7 @@ class Cast {
     }
 
     CastResult write(const Candidate& candidate, const EngineOptions& engine,
-                     const std::vector<glm::dvec3>& seen_places) const {
+                     const std::vector<glm::dvec3>& seen_places) {
         std::map<std::string, long> not_understood;
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
@@ -399,6 +406,12 @@ class Cast {
             not_understood
                 ["a draw that a stencil test keeps to places which other views cannot tell: cast whole"] =
                     stencil_plan.unfollowed;
+        if (stencil_plan.unanswered > 0)
+            not_understood["a draw under a stencil test of which nobody could ask whether it is an outline or a "
+                           "decal (occlusion queries tell): cast as neither"] = stencil_plan.unanswered;
+        if (const long masked = masked_beside(gl, parts_of(candidate), group))
+            not_understood["triangles drawn into the depth buffer alone, beside others with colours: not cast"] =
+                masked;
         if (group.with_own_w)
             not_understood["a draw of vertices with a w of their own and no projection: cast as it stands in "
                            "the picture"] = group.with_own_w;

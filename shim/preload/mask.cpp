@@ -48,6 +48,7 @@ const GLubyte* APIENTRY get_string(GLenum name) {
 GLenum APIENTRY no_status(GLenum) { return 0; }
 void APIENTRY no_names(GLsizei, GLuint*) {}
 void APIENTRY no_binding(GLenum, GLuint) {}
+void APIENTRY no_bits(GLenum, GLenum, GLint* value) { *value = 0; }
 
 } // namespace
 
@@ -56,6 +57,7 @@ const GlTable& masked_table(const GlTable& real, const Mask& mask) {
     masked = new Masked{real, real.GetString, mask, {}};
     GlTable& table = masked->table;
     table.GetString = get_string;
+    if (mask.queries) table.GetQueryiv = no_bits;
     if (!mask.framebuffers) return table;
     table.GenFramebuffers = table.GenRenderbuffers = no_names;
     table.BindFramebuffer = table.BindRenderbuffer = no_binding;

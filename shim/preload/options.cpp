@@ -121,6 +121,8 @@ bool parse_mask(const std::string& text, Options& options) {
             options.mask.floats = true;
         else if (part == "fbo")
             options.mask.framebuffers = true;
+        else if (part == "queries")
+            options.mask.queries = true;
         else if (part == "glsl")
             options.use_shaders = false;
         else
@@ -193,7 +195,7 @@ constexpr Variable variables[] = {
      }},
     {"GLCAST_WINDOW", "a window's number, its id with 0x, or a part of its title",
      [](const std::string& t, Options& o) { return !(o.window = t).empty(); }},
-    {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
+    {"GLCAST_MASK", "float, fbo, glsl or queries, with commas between", parse_mask},
     {"GLCAST_MEMORY", "MiB, a whole number from 1",
      [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},
     {"GLCAST_MAX_SECONDS", "seconds, more than 0",

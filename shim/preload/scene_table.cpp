@@ -91,7 +91,8 @@ template <auto Member, class = std::remove_reference_t<decltype(std::declval<GlT
 struct Colour;
 template <auto Member, class R, class... A> struct Colour<Member, R (*)(A...)> {
     static R APIENTRY call(A... arguments) {
-        if (!gate->fixes_colour()) (gate->inner.*Member)(arguments...);
+        if (!gate->fixes_colour()) return (gate->inner.*Member)(arguments...);
+        gate->late_colour = [=] { (gate->inner.*Member)(arguments...); }; // pointers are the frame's
     }
 };
 
@@ -125,6 +126,7 @@ void APIENTRY end() {
     if (!kept) return;
     gate->inner.End();
     gate->drawn();
+    if (const auto set = std::exchange(gate->late_colour, nullptr)) set(); // it goes on to be the current one
 }
 
 /// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first

@@ -117,7 +117,7 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
 }
 
 DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
-                         bool program_culls, int size) {
+                         bool program_culls, int size, bool nearest) {
     DepthPicture picture;
     const GlTable calls = with_framebuffer_calls(gl);
     const Target target(calls, size, false);
@@ -130,6 +130,10 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     gl.Disable(GL_CULL_FACE);
     GlTable table = picture_table(calls, program_culls);
     ignore<&G::DepthMask>(table);
+    if (nearest) {
+        gl.DepthFunc(GL_LESS);
+        ignore<&G::DepthFunc>(table);
+    }
     draw(table);
     gl.Finish();
     target.bind();

@@ -40,8 +40,8 @@ struct DepthPicture {
 };
 
 /// As draw_thumbnail, and whatever is drawn writes its depth. `culls`: as the program culls; else all faces
-/// are drawn.
+/// are drawn. `nearest`: whatever its depth test, what is in front shows.
 DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
-                         bool culls, int size);
+                         bool culls, int size, bool nearest = false);
 
 } // namespace glcast::preload
