@@ -144,7 +144,7 @@ static void box_beside(void (*hide)(GLboolean on)) {
 }
 static void mask_beside(void) { box_beside(mask); }
 static void no_buffer_beside(void) { box_beside(mask_buffer); }
-/* The lines have the colour that the last vertex of the hidden faces left. */
+/* Lines, and faces that write no depth, have the colour that the last vertex of the hidden faces left. */
 static void colour_left(void) {
     glColor3f(1, 1, 1);
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -162,6 +162,9 @@ static void colour_left(void) {
     mask(GL_TRUE);
     glDisable(GL_POLYGON_OFFSET_FILL);
     edges_in_that_colour();
+    glDepthMask(GL_FALSE), glDepthFunc(GL_LEQUAL);
+    draw_chiral();
+    glDepthMask(GL_TRUE), glDepthFunc(GL_LESS);
 }
 static void mask_alone(void) { behind(draw_chiral); }
 
