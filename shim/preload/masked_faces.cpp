@@ -19,7 +19,7 @@ DepthPicture nearest_depths(const GlTable& gl, std::span<const ScenePart> parts,
             replay_group(part.frame, part.scene, part.group, {.only = &only}, table);
         }
     };
-    return draw_depths(gl, draw, group.viewport, true, picture_size, true);
+    return draw_depths(gl, draw, group.viewport, true, picture_size, PictureDepths::nearest);
 }
 
 } // namespace

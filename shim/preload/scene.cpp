@@ -77,13 +77,13 @@ class GroupFilter final : public DrawGate {
 
     /// Says, too, what is to be drawn of it, and how.
     bool may_be_found(const Draw& draw, GLenum mode) {
-        const record::DrawShape* shape = places && has_faces(mode) ? record::shape_of_draw() : nullptr;
-        if (!shape) return true;
+        const record::DrawParts* drawn = places && has_faces(mode) ? record::parts_of_draw() : nullptr;
+        if (!drawn) return true;
         const DrawPlace* place = places->of(next - 1, [&] {
             glm::dmat4 to_eye(1.0);
             inner.GetDoublev(GL_MODELVIEW_MATRIX, glm::value_ptr(to_eye));
             if (draw.eye_map >= 0) to_eye = scene.eye_maps[draw.eye_map].apply(to_eye);
-            return find_place(*shape, to_eye, sought.eye_to_capture);
+            return find_place(*drawn, to_eye, sought.eye_to_capture);
         });
         if (!place) return true;
         if (sought.open || can_be_left_out()) {

@@ -117,9 +117,10 @@ REASONS = [
 # Plain calls that a display list does not hold: they are executed while it is compiled.
 NOT_COMPILED = r"BindFramebuffer(EXT)? GenerateMipmap"
 
-# Calls that make fragments, or only mean something between glBegin and glEnd.
-DRAWS = r"""Begin End ArrayElement Rect[dfis] Vertex[234].* VertexAttrib[1-4P].* VertexP.* Vertex[234]hv?NV Eval(Coord|Mesh|Point).* Bitmap
-    DrawPixels PrimitiveRestartNV"""
+# Calls that make fragments, or only mean something between glBegin and glEnd: classes of capture/gl/call_classes.py, and
+# what is in none of them. Draws from arrays are packets of their own.
+DRAW_CLASSES = "mesh_draws rectangles begin_end vertices vertices_with_w attributes"
+OTHER_DRAWS = r"Bitmap DrawPixels PrimitiveRestartNV"
 
 # Played by hand (namespace custom, play_NAME): they change what later packets depend on, or touch shared objects.
 HAND_PLAYED = r"""CallList CallLists ListBase BindTexture TexParameter[fi]v? GenerateMipmap PushAttrib

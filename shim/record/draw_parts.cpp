@@ -46,9 +46,9 @@ bool is_whole(GLenum mode, std::uint32_t count) {
     }
 }
 
-class ShapeFinder {
+class PartsFinder {
   public:
-    ShapeFinder(const Frame& frame, const Packet& packet) : draw(frame, packet) {
+    PartsFinder(const Frame& frame, const Packet& packet) : draw(frame, packet) {
         const DrawHeader& header = draw.header;
         Reader arrays({packet.op, draw.arrays, header.arrays * sizeof(DrawArray)});
         for (std::uint32_t i = 0; i < header.arrays; ++i) position = arrays.get<DrawArray>(); // comes last
@@ -56,28 +56,28 @@ class ShapeFinder {
         for (std::uint32_t i = 0; i < header.segments; ++i) segments.push_back(segment.get<DrawSegment>());
     }
 
-    DrawShape find() const {
+    DrawParts find() const {
         const DrawHeader& header = draw.header;
-        DrawShape shape{header.mode, false, false, {}};
+        DrawParts found{header.mode, false, false, {}};
         const bool has_position = header.arrays > 0 && position.kind == GL_VERTEX_ARRAY && position.size >= 2;
-        if (!has_position || segments.size() != 1 || header.instances != 1) return shape;
+        if (!has_position || segments.size() != 1 || header.instances != 1) return found;
         const std::uint32_t count = segments[0].count;
         double p[3];
         for (std::uint32_t i = 0; i < count; ++i)
-            if (!read(element(segments[0].first + i), p)) return shape;
-        shape.is_known = true;
-        shape.is_whole = record::is_whole(header.mode, count);
+            if (!read(element(segments[0].first + i), p)) return found;
+        found.is_known = true;
+        found.is_whole = record::is_whole(header.mode, count);
         const auto cut = cut_of(header.mode);
-        if (!cut || !shape.is_whole || count < 2 * part_elements) {
-            shape.parts.push_back({0, count});
-            return shape;
+        if (!cut || !found.is_whole || count < 2 * part_elements) {
+            found.parts.push_back({0, count});
+            return found;
         }
         for (std::uint32_t at = 0; at + cut->overlap < count; at += cut->step)
-            shape.parts.push_back({at, std::min(cut->step + cut->overlap, count - at)});
-        return shape;
+            found.parts.push_back({at, std::min(cut->step + cut->overlap, count - at)});
+        return found;
     }
 
-    void read_positions(const DrawShape::Part& part, std::vector<float>& xyz) const {
+    void read_positions(const DrawParts::Part& part, std::vector<float>& xyz) const {
         xyz.resize(std::size_t(part.count) * 3);
         double p[3] = {};
         for (std::uint32_t i = 0; i < part.count; ++i) {
@@ -140,20 +140,20 @@ DrawReader::DrawReader(const Frame& of, const Packet& packet) : frame(of) {
     data = reader.align(8).position();
 }
 
-DrawShape find_shape(const Frame& frame, const Packet& packet) { return ShapeFinder(frame, packet).find(); }
+DrawParts find_parts(const Frame& frame, const Packet& packet) { return PartsFinder(frame, packet).find(); }
 
 ShownDraw::ShownDraw(const Frame& frame, const Packet& packet) { shown = {&frame, packet}; }
 ShownDraw::~ShownDraw() { shown = {}; }
 
-const DrawShape* shape_of_draw() {
+const DrawParts* parts_of_draw() {
     if (!shown.frame || !shown.frame->prepared) return nullptr;
-    auto& shape = shown.frame->prepared->shapes[shown.packet.body];
-    if (!shape) shape = std::make_unique<const DrawShape>(find_shape(*shown.frame, shown.packet));
-    return shape.get();
+    auto& found = shown.frame->prepared->parts[shown.packet.body];
+    if (!found) found = std::make_unique<const DrawParts>(find_parts(*shown.frame, shown.packet));
+    return found.get();
 }
 
-void read_positions(const DrawShape::Part& part, std::vector<float>& xyz) {
-    ShapeFinder(*shown.frame, shown.packet).read_positions(part, xyz);
+void read_positions(const DrawParts::Part& part, std::vector<float>& xyz) {
+    PartsFinder(*shown.frame, shown.packet).read_positions(part, xyz);
 }
 
 } // namespace glcast::record
