@@ -18,7 +18,8 @@ constexpr double first_count = 65'536;    // triangles; sketches go down from he
 constexpr double sketch_step = 4;         // of counts
 constexpr double sketch_close_enough = 2; // of counts between which a limit lies
 constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
-constexpr double mean_left = 0.65;        // by the fit, of outlines too
+// By the fit, of outlines too; of a level that may be off so little on average, outlines are not fitted.
+constexpr double mean_left = 0.71, mean_left_of_finest = 0.85, finest_mean_to_p999 = 0.1;
 // The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
 constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
 constexpr double far_within = 0.6;                 // of the limit
@@ -41,20 +42,22 @@ SizedLimit error_within(double pixels, int n) {
 }
 
 double LevelSearch::Estimate::share(const SizedLimit& limit) const {
-    return std::max(error.p999 / limit.p999, error.mean / limit.mean);
+    double left = 1;
+    if (bare && count <= coarse_count)
+        left = limit.mean < finest_mean_to_p999 * limit.p999 ? mean_left_of_finest : mean_left;
+    return std::max(error.p999 / limit.p999, left * error.mean / limit.mean);
 }
 
 double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
     if (count >= all) { // the full surface itself
-        sketches.push_back({double(all), {}});
+        sketches.push_back({double(all), {}, true});
         return 0;
     }
     simplification.collapse_to(count);
     Level level;
     level.mesh = simplification.level(count, FitWork::none);
     const Glance error = meter.glance(level);
-    const double left = double(level.mesh.triangles.size()) <= coarse_count ? mean_left : 1;
-    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * left}};
+    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean}, true};
     const auto at = std::lower_bound(sketches.begin(), sketches.end(), made.count,
                                      [](const Estimate& e, double value) { return e.count < value; });
     if (at == sketches.end() || at->count != made.count) sketches.insert(at, made);
@@ -108,7 +111,7 @@ SizedLevel LevelSearch::make(std::size_t count) const {
 
 double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const {
     const Glance error = meter.glance(level);
-    return Estimate{0, {error.p999, error.mean}}.share(limit * margin);
+    return Estimate{0, {error.p999, error.mean}, false}.share(limit * margin);
 }
 
 /// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left.
@@ -116,7 +119,7 @@ SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double
     Mesh simplified = simplification.level(count, FitWork::little), plain = simplified;
     SizedLevel made{shape(std::move(simplified), true), count};
     share = share_of(made.level, limit);
-    if (share <= 1) return made;
+    if (share <= 1 || made.level.mesh.positions == plain.positions) return made;
     SizedLevel without{shape(std::move(plain), false), count};
     const double share_without = share_of(without.level, limit);
     if (share_without >= share) return made;
@@ -126,11 +129,13 @@ SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
 /// within that one more try is worth it.
-SizedLevel LevelSearch::search(const SizedLimit& limit) const {
+SizedLevel LevelSearch::search(const SizedLimit& limit, const SizedLevel* finer) const {
+    const std::size_t finer_has = finer ? finer->level.mesh.triangles.size() : SIZE_MAX;
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
     for (double count = std::max(first_try(limit), least);;) {
+        if (count >= double(finer_has)) return found.count ? std::move(found) : *finer;
         double share = 0;
         SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
         if (level.level.mesh.triangles.size() >= all)
@@ -152,7 +157,9 @@ std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimi
     if (limits.empty()) return {};
     sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
-    tbb::parallel_for(std::size_t(0), limits.size(), [&](std::size_t k) { levels[k] = search(limits[k]); });
+    levels[0] = search(limits[0], nullptr);
+    tbb::parallel_for(std::size_t(1), limits.size(),
+                      [&](std::size_t k) { levels[k] = search(limits[k], &levels[0]); });
     return levels;
 }
 
