@@ -14,17 +14,19 @@ constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
 constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
 constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
 constexpr std::size_t fewest = 4;         // triangles of a closed mesh
+constexpr std::size_t most_fitted = 10'000; // triangles
 constexpr double first_count = 65'536;    // triangles; sketches go down from here
 constexpr double sketch_step = 4;         // of counts
 constexpr double sketch_close_enough = 2; // of counts between which a limit lies
 constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
-// By the fit, of outlines too; of a level that may be off so little on average, outlines are not fitted.
-constexpr double mean_left = 0.71, mean_left_of_finest = 0.85, finest_mean_to_p999 = 0.1;
-// The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
-constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
+// Of the errors of a bare level, by the fits: coarse levels gain, of the finest limit the 99.9 % alone.
+constexpr double coarse_count = 8'000, p999_left = 0.85, mean_left = 0.66, finest_mean_to_p999 = 0.1;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
+
+/// So little off on average that outlines are as good as they get.
+bool is_finest(const SizedLimit& limit) { return limit.mean < finest_mean_to_p999 * limit.p999; }
 
 } // namespace
 
@@ -42,10 +44,9 @@ SizedLimit error_within(double pixels, int n) {
 }
 
 double LevelSearch::Estimate::share(const SizedLimit& limit) const {
-    double left = 1;
-    if (bare && count <= coarse_count)
-        left = limit.mean < finest_mean_to_p999 * limit.p999 ? mean_left_of_finest : mean_left;
-    return std::max(error.p999 / limit.p999, left * error.mean / limit.mean);
+    const bool gains = bare && count <= coarse_count, mean_gains = gains && !is_finest(limit);
+    return std::max((gains ? p999_left : 1) * error.p999 / limit.p999,
+                    (mean_gains ? mean_left : 1) * error.mean / limit.mean);
 }
 
 double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
@@ -86,27 +87,21 @@ void LevelSearch::sketch(const std::vector<SizedLimit>& limits) {
         }
 }
 
-/// The count at which the sketched error is such a share of the limit: it falls as a power of the count.
-double LevelSearch::sketched(const SizedLimit& limit, double share) const {
+/// Where a level is likely to be within: the error falls as a power of the count.
+double LevelSearch::sketched(const SizedLimit& limit) const {
     const auto fine = std::find_if(sketches.begin(), sketches.end(),
-                                   [&](const Estimate& e) { return e.share(limit) <= share; });
+                                   [&](const Estimate& e) { return e.share(limit) <= margin; });
     if (fine == sketches.end()) return double(all);
     if (fine == sketches.begin()) return fine->count;
     const double high = fine->share(limit), low = std::prev(fine)->share(limit);
     if (!(high > 0)) return fine->count;
-    const double part = std::log(low / share) / std::log(low / high);
+    const double part = std::log(low / margin) / std::log(low / high);
     return std::prev(fine)->count *
            std::pow(fine->count / std::prev(fine)->count, std::clamp(part, 0.0, 1.0));
 }
 
-/// Where a fitted level is likely to be within.
-double LevelSearch::first_try(const SizedLimit& limit) const {
-    const double coarse = sketched(limit, coarse_gains);
-    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit, fine_gains));
-}
-
-SizedLevel LevelSearch::make(std::size_t count) const {
-    return {shape(simplification.level(count, FitWork::little), true), count};
+SizedLevel LevelSearch::make(std::size_t count, bool bare) const {
+    return {shape(simplification.level(count, bare ? FitWork::none : FitWork::little), !bare), count, bare};
 }
 
 double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const {
@@ -114,8 +109,14 @@ double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const 
     return Estimate{0, {error.p999, error.mean}, false}.share(limit * margin);
 }
 
-/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left.
+/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left. So is the
+/// fit where it costs the finest level what flat faces have of themselves.
 SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double& share) const {
+    if (is_finest(limit)) {
+        SizedLevel bare = make(count, true);
+        share = share_of(bare.level, limit);
+        if (share <= 1 || count > most_fitted) return bare;
+    }
     Mesh simplified = simplification.level(count, FitWork::little), plain = simplified;
     SizedLevel made{shape(std::move(simplified), true), count};
     share = share_of(made.level, limit);
@@ -134,7 +135,7 @@ SizedLevel LevelSearch::search(const SizedLimit& limit, const SizedLevel* finer)
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
-    for (double count = std::max(first_try(limit), least);;) {
+    for (double count = std::max(sketched(limit), least);;) {
         if (count >= double(finer_has)) return found.count ? std::move(found) : *finer;
         double share = 0;
         SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
@@ -164,7 +165,7 @@ std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimi
 }
 
 SizedLevel LevelSearch::finer(const SizedLevel& level) const {
-    return make(std::min(all, std::size_t(double(level.count) * a_few_more) + 2));
+    return make(std::min(all, std::size_t(double(level.count) * a_few_more) + 2), level.bare);
 }
 
 } // namespace glcast

@@ -33,6 +33,7 @@ using ShapeLevel = std::function<Level(Mesh&& simplified, bool outlines)>;
 struct SizedLevel {
     Level level;
     std::size_t count = 0; ///< triangles that were asked of the simplification
+    bool bare = false;     ///< without a fit
 };
 
 /// Looks for levels by the count of their triangles. Errors of some counts are estimated before any is
@@ -56,14 +57,13 @@ class LevelSearch {
         double count;
         SizedLimit error;
         bool bare; ///< before a fit, which leaves less
-        double share(const SizedLimit& limit) const;
+        double share(const SizedLimit& limit) const; ///< that is likely after a fit
     };
     double estimate(std::size_t count, const SizedLimit& limit);
     void sketch(const std::vector<SizedLimit>& limits);
-    double sketched(const SizedLimit& limit, double share) const;
-    double first_try(const SizedLimit& limit) const;
+    double sketched(const SizedLimit& limit) const;
     SizedLevel search(const SizedLimit& limit, const SizedLevel* finer) const;
-    SizedLevel make(std::size_t count) const;
+    SizedLevel make(std::size_t count, bool bare) const;
     SizedLevel tried(std::size_t count, const SizedLimit& limit, double& share) const;
     double share_of(const Level& level, const SizedLimit& limit) const;
 

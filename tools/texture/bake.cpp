@@ -22,7 +22,7 @@ namespace {
 
 constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
 constexpr int block = 32;           // texels
-constexpr int most_looks = 4;
+constexpr int most_looks = 3;
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
 struct Layout {
