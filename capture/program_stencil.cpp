@@ -4,6 +4,7 @@
 
 #include "capture/engine_target.h"
 #include "capture/forced_table.h"
+#include "capture/gl/gl_query.h"
 #include "capture/stencil_rule.h"
 
 namespace glcast {
@@ -11,12 +12,6 @@ namespace glcast {
 namespace {
 
 const GlTable& real() { return ForcedTable::current().real; }
-
-GLint get_int(const GlTable& gl, GLenum name) {
-    GLint value = 0;
-    gl.GetIntegerv(name, &value);
-    return value;
-}
 
 /// The program's pixel paths are not for our mask.
 void reset_pixel_paths(const GlTable& gl) {

@@ -13,9 +13,6 @@ constexpr int most_tiles_across = 128;
 constexpr double snap = 1.0 / 16;
 /// Of what is seen narrower than this, in roundings, a driver's slopes are noise.
 constexpr double narrow = 8;
-} // namespace
-
-namespace {
 
 double rounding_of(const Box& box) {
     return 0x1p-20 * (1 + std::max({std::abs(box.lo.x), std::abs(box.lo.y), std::abs(box.lo.z)}) / box.size);

@@ -81,16 +81,16 @@ bool is_finite(const Place& place) {
 
 } // namespace
 
-std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
+std::optional<DrawPlace> find_place(const record::DrawParts& draw, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture) {
     const glm::dmat4 whole = eye_to_capture * to_eye;
     const bool is_affine = whole[0][3] == 0 && whole[1][3] == 0 && whole[2][3] == 0 && whole[3][3] == 1;
-    if (!shape.is_known || !is_affine) return std::nullopt;
+    if (!draw.is_known || !is_affine) return std::nullopt;
     const glm::dmat4 magnitude = magnitudes(eye_to_capture) * magnitudes(to_eye);
-    DrawPlace result{{}, shape.is_whole};
+    DrawPlace result{{}, draw.is_whole};
     std::vector<float> xyz;
     std::vector<glm::dvec3> corners;
-    for (const auto& part : shape.parts) {
+    for (const auto& part : draw.parts) {
         record::read_positions(part, xyz);
         corners.clear();
         glm::dvec3 largest(0);
@@ -100,7 +100,7 @@ std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::d
             corners.emplace_back(whole * glm::dvec4(p, 1));
         }
         const glm::dvec3 slack = rounding * glm::dvec3(magnitude * glm::dvec4(largest, 1));
-        const Place place = PlaceFinder(corners).find(shape.mode, slack);
+        const Place place = PlaceFinder(corners).find(draw.mode, slack);
         if (!is_finite(place)) return std::nullopt;
         result.parts.push_back({part, place});
     }

@@ -13,16 +13,16 @@
 namespace glcast::preload {
 
 struct DrawPlace {
-    struct Part : record::DrawShape::Part {
+    struct Part : record::DrawParts::Part {
         Place place;
     };
-    std::vector<Part> parts; ///< as in record::DrawShape
+    std::vector<Part> parts; ///< as in record::DrawParts
     bool is_whole;
 };
 
 /// Of the draw that is played. Nothing where it is not known. `to_eye`: from the draw's coordinates to eye
 /// space.
-std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
+std::optional<DrawPlace> find_place(const record::DrawParts& shape, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture);
 
 inline constexpr Place nowhere{glm::dvec3(INFINITY), glm::dvec3(-INFINITY), glm::dvec3(0),
@@ -58,8 +58,8 @@ class DrawPlaces {
 
 /// The parts of the draw that `is_sought(place)`, neighbours joined.
 template <class Sought>
-std::vector<record::DrawShape::Part> parts_of(const DrawPlace& place, const Sought& is_sought) {
-    std::vector<record::DrawShape::Part> parts;
+std::vector<record::DrawParts::Part> parts_of(const DrawPlace& place, const Sought& is_sought) {
+    std::vector<record::DrawParts::Part> parts;
     for (const DrawPlace::Part& part : place.parts) {
         if (!is_sought(part.place)) continue;
         if (!parts.empty() && parts.back().first + parts.back().count >= part.first)

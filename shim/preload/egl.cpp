@@ -42,24 +42,7 @@ namespace {
     X(eglGetCurrentDisplay)                                                                                  \
     X(eglGetCurrentSurface)
 
-struct RealEgl {
-#define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
-    GLCAST_EGL_CALLS(GLCAST_MEMBER)
-    GLCAST_EGL_QUERIES(GLCAST_MEMBER)
-#undef GLCAST_MEMBER
-};
-
-const RealEgl& real() {
-    static const RealEgl table = [] {
-        RealEgl found;
-#define GLCAST_FIND(NAME) find_real(#NAME, found.NAME);
-        GLCAST_EGL_CALLS(GLCAST_FIND)
-        GLCAST_EGL_QUERIES(GLCAST_FIND)
-#undef GLCAST_FIND
-        return found;
-    }();
-    return table;
-}
+GLCAST_DEFINE_REAL_CALLS(GLCAST_EGL_CALLS, GLCAST_EGL_QUERIES)
 
 /// Requests of ours are made for desktop GL and leave the thread's API as it was.
 class DesktopApi {
@@ -121,14 +104,7 @@ template <class Swap> EGLBoolean swap(EGLSurface surface, const Swap& real_swap)
 
 } // namespace
 
-WindowEntries egl_entries() {
-    static const WindowEntry entries[] = {
-#define GLCAST_ENTRY(NAME) {#NAME, reinterpret_cast<GlProc>(&::NAME)},
-        GLCAST_EGL_CALLS(GLCAST_ENTRY)
-#undef GLCAST_ENTRY
-    };
-    return {entries, std::size(entries)};
-}
+GLCAST_DEFINE_WINDOW_ENTRIES(egl_entries, GLCAST_EGL_CALLS)
 
 } // namespace glcast::preload
 

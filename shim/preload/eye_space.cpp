@@ -3,17 +3,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
+#include "capture/gl/gl_query.h"
+
 namespace glcast::preload {
-namespace {
-
-GLint get_int(const GlTable& gl, GLenum name, GLint otherwise) {
-    GLint value = otherwise;
-    gl.GetIntegerv(name, &value);
-    return value;
-}
-
-} // namespace
-
 void EyeSpace::enter(const EyeMap* map, double nudge) {
     if (map) move(*map);
     // As a trimmed depth range, which capture/depth_offset.h makes a level of.

@@ -11,6 +11,7 @@
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
 #include "shim/preload/window_entries.h"
+#include "shim/preload/x_close.h"
 #include "shim/preload/x_errors.h"
 
 extern "C" {
@@ -56,24 +57,7 @@ namespace {
     X(glXGetCurrentReadDrawable)                                                                             \
     X(glXQueryDrawable)
 
-struct RealGlx {
-#define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
-    GLCAST_GLX_CALLS(GLCAST_MEMBER)
-    GLCAST_GLX_QUERIES(GLCAST_MEMBER)
-#undef GLCAST_MEMBER
-};
-
-const RealGlx& real() {
-    static const RealGlx table = [] {
-        RealGlx found;
-#define GLCAST_FIND(NAME) find_real(#NAME, found.NAME);
-        GLCAST_GLX_CALLS(GLCAST_FIND)
-        GLCAST_GLX_QUERIES(GLCAST_FIND)
-#undef GLCAST_FIND
-        return found;
-    }();
-    return table;
-}
+GLCAST_DEFINE_REAL_CALLS(GLCAST_GLX_CALLS, GLCAST_GLX_QUERIES)
 
 Display* as_display(void* display) { return static_cast<Display*>(display); }
 
@@ -107,6 +91,13 @@ class Glx : public WindowSystem {
                               : real().glXMakeCurrent(as_display(b.display), b.draw, context);
         return done && !trap.failed();
     }
+
+    bool bind_alone(void* display, void* context) const override {
+        return real().glXMakeContextCurrent &&
+               real().glXMakeContextCurrent(as_display(display), 0, 0, static_cast<GLXContext>(context));
+    }
+
+    void watch_display(void* display, void (*gone)(void*)) const override { call_before_close(display, gone); }
 
     bool can_return_to(const Binding& b) const override {
         return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));
@@ -187,14 +178,7 @@ bool asks_for_es(const std::optional<std::vector<int>>& attributes) {
 
 } // namespace
 
-WindowEntries glx_entries() {
-    static const WindowEntry entries[] = {
-#define GLCAST_ENTRY(NAME) {#NAME, reinterpret_cast<GlProc>(&::NAME)},
-        GLCAST_GLX_CALLS(GLCAST_ENTRY)
-#undef GLCAST_ENTRY
-    };
-    return {entries, std::size(entries)};
-}
+GLCAST_DEFINE_WINDOW_ENTRIES(glx_entries, GLCAST_GLX_CALLS)
 
 } // namespace glcast::preload
 

@@ -3,6 +3,7 @@
 // read.
 #include <GL/osmesa.h>
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <vector>
@@ -27,24 +28,9 @@ namespace {
     X(OSMesaGetDepthBuffer)                                                                                  \
     X(OSMesaGetProcAddress)
 
-struct RealOsmesa {
-#define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
-    GLCAST_OSMESA_CALLS(GLCAST_MEMBER)
-    GLCAST_MEMBER(OSMesaGetCurrentContext)
-#undef GLCAST_MEMBER
-};
+#define GLCAST_OSMESA_QUERIES(X) X(OSMesaGetCurrentContext)
 
-const RealOsmesa& real() {
-    static const RealOsmesa table = [] {
-        RealOsmesa found;
-#define GLCAST_FIND(NAME) find_real(#NAME, found.NAME);
-        GLCAST_OSMESA_CALLS(GLCAST_FIND)
-        GLCAST_FIND(OSMesaGetCurrentContext)
-#undef GLCAST_FIND
-        return found;
-    }();
-    return table;
-}
+GLCAST_DEFINE_REAL_CALLS(GLCAST_OSMESA_CALLS, GLCAST_OSMESA_QUERIES)
 
 /// The program's memory that a context draws into.
 struct Image {
@@ -101,8 +87,18 @@ class Osmesa : public WindowSystem {
 };
 const Osmesa osmesa;
 
-/// Whether the recorder's GL is OSMesa's: a program may have another one beside it.
-bool is_recorded() { return in_osmesa(find_symbol("glFinish")); }
+/// Whether the recorder's GL is OSMesa's: a program may have another one beside it. The answer is kept, as
+/// the stubs keep the functions that they have found.
+bool is_recorded() {
+    enum Answer { unknown, no, yes };
+    static constinit std::atomic<Answer> kept{unknown};
+    if (kept == unknown) {
+        const void* const finish = find_symbol("glFinish");
+        if (!finish) return false;
+        kept = in_osmesa(finish) ? yes : no;
+    }
+    return kept == yes;
+}
 
 /// Contexts of ours have a format that fits the spare memory.
 template <class Create> OSMesaContext make_context(GLenum format, OSMesaContext share, const Create& create) {
@@ -125,14 +121,7 @@ void memory_is_shown() {
 
 } // namespace
 
-WindowEntries osmesa_entries() {
-    static const WindowEntry entries[] = {
-#define GLCAST_ENTRY(NAME) {#NAME, reinterpret_cast<GlProc>(&::NAME)},
-        GLCAST_OSMESA_CALLS(GLCAST_ENTRY)
-#undef GLCAST_ENTRY
-    };
-    return {entries, std::size(entries)};
-}
+GLCAST_DEFINE_WINDOW_ENTRIES(osmesa_entries, GLCAST_OSMESA_CALLS)
 
 } // namespace glcast::preload
 

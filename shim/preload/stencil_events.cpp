@@ -1,17 +1,12 @@
 #include "shim/preload/stencil_events.h"
 
+#include "capture/gl/gl_query.h"
 #include "capture/program_stencil.h"
 
 namespace glcast::preload {
 namespace {
 
 constexpr GLuint all_bits = 0xff;
-
-GLint get_int(const GlTable& gl, GLenum name) {
-    GLint value = 0;
-    gl.GetIntegerv(name, &value);
-    return value;
-}
 
 StencilFace front_now(const GlTable& gl) {
     const auto get = [&](GLenum name) { return static_cast<GLuint>(get_int(gl, name)); };

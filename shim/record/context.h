@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/gl/gl_query.h"
 #include "shim/record/record.h"
 #include "shim/record/stream.h"
 
@@ -209,13 +210,6 @@ inline Context* listening_context() {
 inline Context* changing_context() {
     Context* context = this_thread.context;
     return context && context->group->reading.load(std::memory_order_relaxed) > 0 ? context : nullptr;
-}
-
-/// Queries with defaults: a query that GL refuses leaves the default.
-inline GLint get_int(const GlTable& gl, GLenum name, GLint fallback = 0) {
-    GLint values[16] = {fallback};
-    gl.GetIntegerv(name, values);
-    return values[0];
 }
 
 } // namespace glcast::record

@@ -2,8 +2,6 @@
 // (programs/backdrops.c).
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "tests/preload/program_run.h"
 
 namespace glcast::test {
@@ -13,23 +11,15 @@ constexpr int n = 48;
 constexpr double body = 3; // wide
 constexpr const char* told = "left out as a backdrop: ";
 
-struct BackdropRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
+struct BackdropRun : CastRun {
     double width = 0; ///< of what was cast
     bool says(const std::string& text) const { return outcome.err.find(text) != std::string::npos; }
 };
 
 BackdropRun cast(const std::string& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    BackdropRun run;
-    run.outcome = run_program({BACKDROPS, way}, environment, true);
+    BackdropRun run{cast_program({BACKDROPS, way}, n, std::move(environment))};
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
-    if (!std::filesystem::exists(folder / "cast.exr")) return run;
-    run.capture = read_capture(folder / "cast.exr");
-    run.width = run.capture->info.box.size * (n - 4) / n;
+    if (run.capture) run.width = run.capture->info.box.size * (n - 4) / n;
     return run;
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "tests/preload/program_run.h"
 
@@ -12,22 +11,12 @@ namespace {
 
 constexpr int n = 48;
 
-struct BlendRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-BlendRun cast(const std::vector<std::string>& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
+CastRun cast(const std::vector<std::string>& way, Environment environment = {}) {
     std::vector<std::string> arguments = {BLENDS};
     arguments.insert(arguments.end(), way.begin(), way.end());
-    BlendRun result;
-    result.outcome = run_program(arguments, environment, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+    CastRun run = cast_program(arguments, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 /// Edge of what was drawn, without the two samples of margin about it.
@@ -57,7 +46,7 @@ Seen from_above(const Capture& capture) {
 class Hulls : public testing::TestWithParam<const char*> {};
 
 TEST_P(Hulls, that_let_a_box_be_seen_are_not_cast) {
-    const BlendRun run = cast({GetParam()});
+    const CastRun run = cast({GetParam()});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(extent(*run.capture), 2, 0.01);
     const Seen seen = from_above(*run.capture);
@@ -74,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Blends, Hulls,
 class Solids : public testing::TestWithParam<const char*> {};
 
 TEST_P(Solids, are_cast_whatever_their_alpha_is) {
-    const BlendRun run = cast({GetParam()});
+    const CastRun run = cast({GetParam()});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(extent(*run.capture), 5, 0.02);
     const Seen seen = from_above(*run.capture);
@@ -90,17 +79,17 @@ INSTANTIATE_TEST_SUITE_P(Blends, Solids,
 
 TEST(Blends, of_which_nothing_is_solid_are_refused_with_the_option_that_keeps_them) {
     for (const char* way : {"glow", "transparency", "constant_alpha"}) {
-        const BlendRun run = cast({way, "alone"});
+        const CastRun run = cast({way, "alone"});
         EXPECT_FALSE(run.capture);
         EXPECT_NE(run.outcome.err.find("--transparent keep"), std::string::npos) << run.outcome.err;
-        const BlendRun kept = cast({way, "alone"}, {{"GLCAST_TRANSPARENT", "keep"}});
+        const CastRun kept = cast({way, "alone"}, {{"GLCAST_TRANSPARENT", "keep"}});
         ASSERT_TRUE(kept.capture) << kept.outcome.err;
         EXPECT_NEAR(extent(*kept.capture), 4, 0.02);
     }
 }
 
 TEST(Blends, by_colour_alone_are_told_of) {
-    const BlendRun run = cast({"greatest_over_dark"});
+    const CastRun run = cast({"greatest_over_dark"});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_EQ(run.capture->info.not_understood.size(), 1u) << run.outcome.err;
 }

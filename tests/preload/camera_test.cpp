@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,20 +26,10 @@ glm::dmat4 view() {
     return glm::rotate(m, glm::radians(-35.0), {0, 1, 0});
 }
 
-struct CameraRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-CameraRun cast(const std::string& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    CameraRun result;
-    result.outcome = run_program({CAMERAS, way}, environment, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+CastRun cast(const std::string& way, Environment environment = {}) {
+    CastRun run = cast_program({CAMERAS, way}, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 double distance_to_box(const glm::dvec3& p, const glm::dvec3& lo, const glm::dvec3& hi) {
@@ -51,7 +40,7 @@ double distance_to_box(const glm::dvec3& p, const glm::dvec3& lo, const glm::dve
 }
 
 /// Each hit lies on a box and has its colour, and each box has hits on all its sides.
-void expect_the_body(const CameraRun& run, const glm::dmat4& to_model, double tolerance = 0.01) {
+void expect_the_body(const CastRun& run, const glm::dmat4& to_model, double tolerance = 0.01) {
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const Capture& capture = *run.capture;
     const double sample = capture.info.box.size / n * glm::length(glm::dvec3(to_model[0]));
@@ -90,7 +79,7 @@ void expect_the_body(const CameraRun& run, const glm::dmat4& to_model, double to
 class Ways : public testing::TestWithParam<const char*> {};
 
 TEST_P(Ways, lead_into_one_eye_space) {
-    const CameraRun run = cast(GetParam());
+    const CastRun run = cast(GetParam());
     expect_the_body(run, glm::dmat4(1.0));
     ASSERT_TRUE(run.capture);
     EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
@@ -110,7 +99,7 @@ TEST(Cameras, of_models_that_are_scaled_unevenly_in_the_whole_matrix_are_found) 
 
 TEST(Cameras, of_clip_positions_are_found_with_a_field_of_view) {
     for (const char* way : {"clip_positions", "clip_arrays"}) {
-        const CameraRun run = cast(way, {{"GLCAST_FOV", "28.072486935852957"}}); // 2 atan 1/4
+        const CastRun run = cast(way, {{"GLCAST_FOV", "28.072486935852957"}}); // 2 atan 1/4
         expect_the_body(run, glm::inverse(view()), 0.05);
         ASSERT_TRUE(run.capture);
         EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
@@ -119,7 +108,7 @@ TEST(Cameras, of_clip_positions_are_found_with_a_field_of_view) {
 
 // Wrong by a stretch along the line of sight, and no more: what is flat stays flat.
 TEST(Cameras, of_clip_positions_are_guessed_with_a_warning) {
-    const CameraRun run = cast("clip_positions");
+    const CastRun run = cast("clip_positions");
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NE(run.outcome.err.find("--fov"), std::string::npos) << run.outcome.err;
     EXPECT_EQ(run.capture->info.not_understood.size(), 1u);
@@ -144,7 +133,7 @@ TEST(Cameras, of_clip_positions_are_guessed_with_a_warning) {
 }
 
 TEST(Cameras, that_cannot_be_found_are_told_of) {
-    const CameraRun run = cast("bent_positions");
+    const CastRun run = cast("bent_positions");
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_EQ(run.capture->info.not_understood.size(), 1u) << run.outcome.err;
     EXPECT_NE(run.outcome.err.find("w of their own"), std::string::npos) << run.outcome.err;
@@ -152,7 +141,7 @@ TEST(Cameras, that_cannot_be_found_are_told_of) {
 
 // The mark covers a quarter of the first box's side at z = 0.
 TEST(Cameras, that_draw_decals_by_a_nudged_depth_row_show_them) {
-    const CameraRun run = cast("decal");
+    const CastRun run = cast("decal");
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const double square = std::pow(run.capture->info.box.size / n, 2);
     long yellow = 0;
@@ -167,7 +156,7 @@ TEST(Cameras, that_draw_decals_by_a_nudged_depth_row_show_them) {
 
 TEST(Cameras, are_as_many_renders_as_one_where_planes_differ) {
     const auto draws = [](const char* way) {
-        const CameraRun run = cast(way);
+        const CastRun run = cast(way);
         const std::size_t at = run.outcome.err.find(" draws");
         return run.outcome.err.substr(at - std::min<std::size_t>(at, 4), 4);
     };
@@ -177,7 +166,7 @@ TEST(Cameras, are_as_many_renders_as_one_where_planes_differ) {
 
 TEST(Cameras, have_a_field_of_view_of_less_than_half_a_turn) {
     for (const char* degrees : {"180", "0", "-3", "nan", "wide"}) {
-        const CameraRun run = cast("clip_positions", {{"GLCAST_FOV", degrees}});
+        const CastRun run = cast("clip_positions", {{"GLCAST_FOV", degrees}});
         EXPECT_FALSE(run.capture);
         EXPECT_NE(run.outcome.err.find("GLCAST_FOV"), std::string::npos) << run.outcome.err;
     }

@@ -17,20 +17,10 @@ namespace {
 
 constexpr int n = 64;
 
-struct SceneRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-SceneRun cast(const std::string& kind, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    SceneRun result;
-    result.outcome = run_program({SCENES, kind}, environment, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+CastRun cast(const std::string& kind, Environment environment = {}) {
+    CastRun run = cast_program({SCENES, kind}, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 /// Edge of what was drawn, without the two samples of margin about it.
@@ -52,12 +42,12 @@ Tint mean_colour(const Capture& capture) {
     return {sum.red / count, sum.green / count, sum.blue / count};
 }
 
-void expect_the_body(const SceneRun& run) {
+void expect_the_body(const CastRun& run) {
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(extent(*run.capture), 3, 0.01);
 }
 
-void expect_green(const SceneRun& run) {
+void expect_green(const CastRun& run) {
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const Tint tint = mean_colour(*run.capture);
     EXPECT_GT(tint.green, 0.95);
@@ -65,30 +55,30 @@ void expect_green(const SceneRun& run) {
 }
 
 TEST(Choice, of_a_cad_program_is_the_perspective_view_and_no_backdrop_nor_navigation_ball) {
-    const SceneRun listed = cast("cad", {{"GLCAST_LIST", "1"}});
+    const CastRun listed = cast("cad", {{"GLCAST_LIST", "1"}});
     const auto lines = glcast_lines(listed.outcome);
     ASSERT_EQ(lines.size(), 8u) << listed.outcome.err; // hooked, backdrop, four views, ball, listed
     EXPECT_NE(lines[1].find("group 1 36 triangles"), std::string::npos) << lines[1];
     EXPECT_NE(lines[1].find("perspective"), std::string::npos) << lines[1];
     EXPECT_NE(listed.outcome.err.find("an inset"), std::string::npos) << listed.outcome.err;
-    const SceneRun run = cast("cad");
+    const CastRun run = cast("cad");
     expect_the_body(run);
     expect_green(run);
 }
 
 TEST(Choice, can_be_overruled_by_number) {
-    const SceneRun listed = cast("cad", {{"GLCAST_LIST", "1"}});
+    const CastRun listed = cast("cad", {{"GLCAST_LIST", "1"}});
     int ball = 0, number = 0;
     for (const std::string& line : glcast_lines(listed.outcome))
         if (line.starts_with("group ") && ++number && line.find("an inset") != std::string::npos)
             ball = number;
-    const SceneRun run = cast("cad", {{"GLCAST_GROUP", std::to_string(ball)}});
+    const CastRun run = cast("cad", {{"GLCAST_GROUP", std::to_string(ball)}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(extent(*run.capture), 4, 0.05);
 }
 
 TEST(Choice, of_offscreen_pictures_is_the_one_drawn_last) {
-    const SceneRun run = cast("helper");
+    const CastRun run = cast("helper");
     expect_the_body(run);
     expect_green(run);
 }
@@ -104,7 +94,7 @@ TEST(Choice, is_shown_as_pictures) {
 class WholeFrames : public testing::TestWithParam<const char*> {};
 
 TEST_P(WholeFrames, hold_the_whole_body) {
-    const SceneRun run = cast(GetParam());
+    const CastRun run = cast(GetParam());
     expect_the_body(run);
     long covered = 0; // of the three boxes, seen along z: 2 x 1 + 1 x 2 of 3 x 3
     for (const ViewImage& image : run.capture->images)
@@ -119,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, WholeFrames,
                          [](const auto& info) { return info.param; });
 
 TEST(Frames, that_only_show_a_texture_again_do_not_count) {
-    const SceneRun run = cast("composite_still", {{"GLCAST_FRAME", "3"}});
+    const CastRun run = cast("composite_still", {{"GLCAST_FRAME", "3"}});
     EXPECT_FALSE(run.capture);
     EXPECT_NE(run.outcome.err.find("none with solid geometry"), std::string::npos) << run.outcome.err;
 }
@@ -128,7 +118,7 @@ TEST(Frames, of_which_a_part_is_painted_over_show_the_rest) { expect_green(cast(
 
 TEST(Transparent, is_cast_by_its_alpha_or_kept_or_skipped) {
     const auto width = [](const Environment& environment) {
-        const SceneRun run = cast("glass", environment);
+        const CastRun run = cast("glass", environment);
         return run.capture ? extent(*run.capture) : -1;
     };
     EXPECT_NEAR(width({}), 5, 0.05);
@@ -140,7 +130,7 @@ TEST(Transparent, is_cast_by_its_alpha_or_kept_or_skipped) {
 // each.
 TEST(Decals, told_apart_by_an_offset_cover_what_they_cover) {
     const Outcome plain = run_program({SCENES, "decals"}, {}, false);
-    const SceneRun run = cast("decals", {{"GLCAST_FRAME", "3"}, {"GLCAST_FRAME_MATRIX", "eye"}});
+    const CastRun run = cast("decals", {{"GLCAST_FRAME", "3"}, {"GLCAST_FRAME_MATRIX", "eye"}});
     EXPECT_EQ(run.outcome.out, plain.out);
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const double share = 32 * std::sin(std::numbers::pi / 32) * 0.25 / 4;
@@ -158,10 +148,10 @@ TEST(Decals, told_apart_by_an_offset_cover_what_they_cover) {
 }
 
 TEST(Lines, are_no_solid_unless_asked_for) {
-    const SceneRun without = cast("wires");
+    const CastRun without = cast("wires");
     EXPECT_FALSE(without.capture);
     EXPECT_NE(without.outcome.err.find("--include lines"), std::string::npos) << without.outcome.err;
-    const SceneRun with = cast("wires", {{"GLCAST_INCLUDE", "lines"}});
+    const CastRun with = cast("wires", {{"GLCAST_INCLUDE", "lines"}});
     ASSERT_TRUE(with.capture) << with.outcome.err;
     EXPECT_NEAR(extent(*with.capture), 2, 0.1);
     const double sample = with.capture->info.box.size / n;
@@ -179,7 +169,7 @@ TEST(Lines, are_no_solid_unless_asked_for) {
 }
 
 TEST(Points, are_cast_when_asked_for) {
-    const SceneRun run = cast("cloud", {{"GLCAST_INCLUDE", "points"}});
+    const CastRun run = cast("cloud", {{"GLCAST_INCLUDE", "points"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const glm::dvec3 centre(1, 1, 1);
     for (const ViewImage& image : run.capture->images)
@@ -191,12 +181,12 @@ TEST(Points, are_cast_when_asked_for) {
                     lattice_point(run.capture->info.box, n, image.view.axis, i, j, image.depth[at]);
                 EXPECT_NEAR(glm::length(p - centre), 1, 2.0 * run.capture->info.box.size / n);
             }
-    const SceneRun without = cast("cloud");
+    const CastRun without = cast("cloud");
     EXPECT_FALSE(without.capture);
 }
 
 TEST(Signal, asks_for_a_frame_and_the_programs_handler_runs) {
-    const SceneRun run = cast("signals", {{"GLCAST_SIGNAL", "USR1"}});
+    const CastRun run = cast("signals", {{"GLCAST_SIGNAL", "USR1"}});
     expect_the_body(run);
     EXPECT_EQ(run.capture->info.frame, 3); // it came during the second
     EXPECT_EQ(run.outcome.out, "handled 1\n");
@@ -204,7 +194,7 @@ TEST(Signal, asks_for_a_frame_and_the_programs_handler_runs) {
 
 TEST(Textures, that_change_and_go_in_a_frame_are_seen_as_each_draw_saw_them) {
     const Outcome plain = run_program({SCENES, "refilled"}, {}, false);
-    const SceneRun run = cast("refilled", {{"GLCAST_FRAME_MATRIX", "base"}});
+    const CastRun run = cast("refilled", {{"GLCAST_FRAME_MATRIX", "base"}});
     EXPECT_EQ(run.outcome.out, plain.out); // pixels and errors
     ASSERT_TRUE(run.capture) << run.outcome.err;
     std::set<std::tuple<int, int, int>> colours;

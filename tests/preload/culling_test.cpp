@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "tests/preload/program_run.h"
@@ -17,9 +16,7 @@ constexpr int n = 96;
 constexpr double thickness = 0.1; ///< of sheets, samples
 constexpr const char* told = "as an outline: ";
 
-struct Cast {
-    Outcome outcome;
-    std::optional<Capture> capture;
+struct Cast : CastRun {
     double sample = 0, volume = 0, red = 0, other = 0; ///< areas by colour
     bool is_closed = false;
     bool says(const std::string& text) const { return outcome.err.find(text) != std::string::npos; }
@@ -46,14 +43,9 @@ void measure(Cast& cast) {
 }
 
 Cast cast(const std::string& kind, const std::string& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    Cast run;
-    run.outcome = run_program({ROOMS, kind, way}, environment, true);
+    Cast run{cast_program({ROOMS, kind, way}, n, std::move(environment))};
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
-    if (!std::filesystem::exists(folder / "cast.exr")) return run;
-    run.capture = read_capture(folder / "cast.exr");
+    if (!run.capture) return run;
     measure(run);
     EXPECT_TRUE(run.is_closed);
     return run;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "tests/preload/program_run.h"
@@ -14,20 +13,10 @@ namespace {
 
 constexpr double body = 6, grid = 0.04; // as in reads_test.cpp
 
-struct HiddenRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-HiddenRun cast(const std::string& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = "48";
-    HiddenRun run;
-    run.outcome = run_program({HIDDEN, way}, environment, true);
+CastRun cast(const std::string& way, Environment environment = {}) {
+    CastRun run = cast_program({HIDDEN, way}, 48, std::move(environment));
     EXPECT_EQ(run.outcome.exit_code, 0);
     EXPECT_NE(run.outcome.out.find("error 0"), std::string::npos) << run.outcome.out;
-    if (std::filesystem::exists(folder / "cast.exr")) run.capture = read_capture(folder / "cast.exr");
     return run;
 }
 
@@ -47,7 +36,7 @@ const glm::vec3 background(0.125f, 0.25f, 0.5f), orange(1, 0.5f, 0), white(1);
 
 class HiddenLine : public testing::TestWithParam<std::string> {};
 TEST_P(HiddenLine, is_cast_in_the_colour_of_the_background) {
-    const HiddenRun run = cast(GetParam());
+    const CastRun run = cast(GetParam());
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(volume(*run.capture), body, grid * body);
     EXPECT_EQ(share_of_colour(*run.capture, background), 1);
@@ -65,14 +54,14 @@ INSTANTIATE_TEST_SUITE_P(Hidden, HiddenLine,
 
 TEST(Hidden, lines_are_offered_and_cast_when_asked_for) {
     EXPECT_NE(cast("mask-lines").outcome.err.find("--include lines"), std::string::npos);
-    const HiddenRun run = cast("mask-lines", {{"GLCAST_INCLUDE", "lines"}});
+    const CastRun run = cast("mask-lines", {{"GLCAST_INCLUDE", "lines"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_GT(share_of_colour(*run.capture, white), 0.05);
     EXPECT_GT(share_of_colour(*run.capture, background), 0.5);
 }
 
 TEST(Hidden, faces_that_get_their_colours_later_have_these) {
-    const HiddenRun run = cast("depth-first");
+    const CastRun run = cast("depth-first");
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(volume(*run.capture), body, grid * body);
     EXPECT_EQ(share_of_colour(*run.capture, orange), 1);
@@ -80,7 +69,7 @@ TEST(Hidden, faces_that_get_their_colours_later_have_these) {
 }
 
 TEST(Hidden, faces_with_nothing_over_them_are_told_of) {
-    const HiddenRun run = cast("mask-alone");
+    const CastRun run = cast("mask-alone");
     EXPECT_FALSE(run.capture);
     EXPECT_NE(run.outcome.err.find("masked colours"), std::string::npos) << run.outcome.err;
 }
@@ -88,7 +77,7 @@ TEST(Hidden, faces_with_nothing_over_them_are_told_of) {
 // ctmviewer: lists shaded by GLSL, and lines and pixels beside them.
 TEST(Hidden, lists_under_a_shader_are_told_of) {
     for (const char* way : {"shaded-list", "shading-list"}) {
-        const HiddenRun run = cast(way);
+        const CastRun run = cast(way);
         EXPECT_FALSE(run.capture);
         EXPECT_NE(run.outcome.err.find("draws with shaders of its own"), std::string::npos)
             << run.outcome.err;

@@ -77,6 +77,16 @@ FixtureRun cast_fixture(const std::vector<std::string>& arguments, const Environ
     return result;
 }
 
+CastRun cast_program(const std::vector<std::string>& command, int n, Environment environment) {
+    const TemporaryFolder folder;
+    environment["GLCAST_OUT"] = folder / "cast.exr";
+    environment["GLCAST_N"] = std::to_string(n);
+    CastRun run;
+    run.outcome = run_program(command, environment, true);
+    if (std::filesystem::exists(folder / "cast.exr")) run.capture = read_capture(folder / "cast.exr");
+    return run;
+}
+
 std::vector<std::string> glcast_lines(const Outcome& outcome) {
     const std::string prefix = "glcast: ";
     std::vector<std::string> lines;

@@ -31,6 +31,13 @@ FixtureRun run_fixture(std::vector<std::string> arguments, const Environment& en
 /// With GLCAST_OUT set to a file of its own, n = 64.
 FixtureRun cast_fixture(const std::vector<std::string>& arguments, const Environment& environment = {});
 
+/// Any program, and the capture that it left, with GLCAST_OUT set to a file of its own.
+struct CastRun {
+    Outcome outcome;
+    std::optional<Capture> capture;
+};
+CastRun cast_program(const std::vector<std::string>& command, int n, Environment environment = {});
+
 /// Lines of stderr that begin with "glcast: ", without that.
 std::vector<std::string> glcast_lines(const Outcome& outcome);
 

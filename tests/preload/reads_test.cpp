@@ -12,18 +12,8 @@ namespace {
 
 constexpr int n = 48;
 
-struct ReadRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-ReadRun cast(const std::vector<std::string>& command, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    ReadRun run;
-    run.outcome = run_program(command, environment, true);
-    if (std::filesystem::exists(folder / "cast.exr")) run.capture = read_capture(folder / "cast.exr");
+CastRun cast(const std::vector<std::string>& command, Environment environment = {}) {
+    CastRun run = cast_program(command, n, std::move(environment));
     return run;
 }
 
@@ -35,7 +25,7 @@ constexpr double grid =
 void expect_the_body(const std::vector<std::string>& command, const Environment& environment = {}) {
     const Outcome plain = run_program(command, {}, false);
     ASSERT_EQ(plain.exit_code, 0) << "this driver has it not";
-    const ReadRun run = cast(command, environment);
+    const CastRun run = cast(command, environment);
     EXPECT_EQ(run.outcome.exit_code, 0);
     EXPECT_EQ(run.outcome.out, plain.out);
     ASSERT_TRUE(run.capture) << run.outcome.err;
@@ -71,7 +61,7 @@ TEST(Reads, of_osmesa_that_is_opened_later_end_frames) { expect_the_body({READS_
 // Two OpenGLs in one process: the one that is not recorded draws as ever.
 TEST(Reads, of_osmesa_beside_another_opengl_are_let_alone) {
     const Outcome plain = run_program({READS_OSMESA_BESIDE, "finish"}, {}, false);
-    const ReadRun run = cast({READS_OSMESA_BESIDE, "finish"});
+    const CastRun run = cast({READS_OSMESA_BESIDE, "finish"});
     EXPECT_EQ(run.outcome.exit_code, 0);
     EXPECT_EQ(run.outcome.out, plain.out);
     EXPECT_FALSE(run.capture);
@@ -86,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Reads, ReadBeforeSwap, testing::Values("pick-swap", "re
 
 // JOGL's GLJPanel.
 TEST(Reads, of_a_picture_that_a_shader_turns_over_cast_the_scene) {
-    const ReadRun run = cast({READS, "surfaceless-turned"});
+    const CastRun run = cast({READS, "surfaceless-turned"});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(volume(*run.capture), body, grid * body) << run.outcome.err;
 }
@@ -101,7 +91,7 @@ TEST(Reads, of_an_empty_picture_are_waited_out) { expect_the_body({READS, "empty
 TEST(Reads, of_several_pictures_leave_the_first) { expect_the_body({READS, "two-pictures"}); }
 
 TEST(Reads, are_counted_as_frames) {
-    const ReadRun run = cast({READS, "two-pictures"}, {{"GLCAST_FRAME", "2"}});
+    const CastRun run = cast({READS, "two-pictures"}, {{"GLCAST_FRAME", "2"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_EQ(run.capture->info.frame, 2);
     EXPECT_GT(volume(*run.capture), 1.5 * body);
@@ -122,7 +112,7 @@ TEST(Reads, of_several_pictures_can_all_be_cast) {
 TEST(Rest, is_cast_as_it_was_drawn_last) { expect_the_body({READS, "rest", "1"}, {{"GLCAST_AFTER", "0.5"}}); }
 
 TEST(Reads, that_never_come_lead_to_a_reason) {
-    const ReadRun run = cast({READS, "pbuffer-unread"});
+    const CastRun run = cast({READS, "pbuffer-unread"});
     EXPECT_FALSE(run.capture);
     EXPECT_NE(run.outcome.err.find("pbuffer"), std::string::npos) << run.outcome.err;
 }

@@ -2,7 +2,6 @@
 // (programs/sides.c).
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -14,19 +13,10 @@ namespace {
 
 constexpr int n = 96;
 
-struct SidesRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-SidesRun cast(const std::string& way) {
-    const TemporaryFolder folder;
-    SidesRun result;
-    result.outcome = run_program(
-        {SIDES, way}, {{"GLCAST_OUT", folder / "cast.exr"}, {"GLCAST_N", std::to_string(n)}}, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+CastRun cast(const std::string& way, Environment environment = {}) {
+    CastRun run = cast_program({SIDES, way}, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 struct Areas {
@@ -62,7 +52,7 @@ class Sides : public testing::TestWithParam<Truth> {};
 // The border of a sheet is up to a sample short.
 TEST_P(Sides, have_a_colour_each) {
     const Truth& truth = GetParam();
-    const SidesRun run = cast(truth.way);
+    const CastRun run = cast(truth.way);
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_TRUE(run.capture->info.both_sides);
     const Areas areas = measure(*run.capture);
@@ -83,10 +73,37 @@ INSTANTIATE_TEST_SUITE_P(
                     Truth{"open_box_by_two_passes", 20, false}),
     [](const auto& info) { return std::string(info.param.way); });
 
+struct Alike {
+    const char* way;
+    bool both_sides, reversed; ///< as the capture says
+    double turned;             ///< share of the area whose normals point into the sheet
+};
+
+class AlikeSides : public testing::TestWithParam<Alike> {};
+
+// Backs have the reverse of the front's normal where light is two-sided, and the same one where it is not.
+TEST_P(AlikeSides, have_normals_as_lit) {
+    const Alike& truth = GetParam();
+    const CastRun run = cast(truth.way);
+    ASSERT_TRUE(run.capture) << run.outcome.err;
+    EXPECT_EQ(run.capture->info.both_sides, truth.both_sides);
+    EXPECT_EQ(run.capture->info.reversed_backs, truth.reversed);
+    const Areas areas = measure(*run.capture);
+    EXPECT_NEAR(areas.red, areas.all, 0.02 * areas.all);
+    EXPECT_NEAR(areas.turned, truth.turned * areas.all, 0.03 * areas.all);
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, AlikeSides,
+                         testing::Values(Alike{"four_plates_in_one_colour", false, true, 0},
+                                         Alike{"bent_sheet_in_one_colour", false, true, 0},
+                                         Alike{"open_box_in_one_colour", false, true, 0},
+                                         Alike{"plates_lit_as_fronts", false, false, 0.5},
+                                         Alike{"two_of_each", true, false, 0.25}),
+                         [](const auto& info) { return std::string(info.param.way); });
+
 TEST(SidesTest, that_look_alike_are_drawn_once) {
-    const SidesRun run = cast("one_colour"), both = cast("four_plates");
+    const CastRun run = cast("four_plates_in_one_colour"), both = cast("four_plates");
     ASSERT_TRUE(run.capture && both.capture) << run.outcome.err;
-    EXPECT_FALSE(run.capture->info.both_sides);
     for (const ViewImage& image : run.capture->images) EXPECT_TRUE(image.other_colour.empty());
     EXPECT_LT(run.capture->file_bytes, both.capture->file_bytes);
 }

@@ -2,7 +2,6 @@
 // faces filled by parity and decals are, outlines are not (programs/stencils.c).
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "tests/preload/program_run.h"
@@ -13,20 +12,10 @@ namespace {
 
 constexpr int n = 96;
 
-struct StencilRun {
-    Outcome outcome;
-    std::optional<Capture> capture;
-};
-
-StencilRun cast(const std::string& way, Environment environment = {}) {
-    const TemporaryFolder folder;
-    environment["GLCAST_OUT"] = folder / "cast.exr";
-    environment["GLCAST_N"] = std::to_string(n);
-    StencilRun result;
-    result.outcome = run_program({STENCILS, way}, environment, true);
-    EXPECT_EQ(result.outcome.exit_code, 0) << result.outcome.err;
-    if (std::filesystem::exists(folder / "cast.exr")) result.capture = read_capture(folder / "cast.exr");
-    return result;
+CastRun cast(const std::string& way, Environment environment = {}) {
+    CastRun run = cast_program({STENCILS, way}, n, std::move(environment));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    return run;
 }
 
 struct Body {
@@ -59,7 +48,7 @@ class Stencils : public testing::TestWithParam<Truth> {};
 
 TEST_P(Stencils, cast_as_the_window_shows) {
     const Truth& truth = GetParam();
-    const StencilRun run = cast(truth.way);
+    const CastRun run = cast(truth.way);
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
     EXPECT_EQ(run.outcome.err.find("backdrop"), std::string::npos) << run.outcome.err; // marks are none
@@ -91,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.way); });
 
 TEST(StencilTest, by_invisible_marks_cuts_a_hole) {
-    const StencilRun run = cast("hole_in_a_wall"), parts = cast("wall_of_four_parts");
+    const CastRun run = cast("hole_in_a_wall"), parts = cast("wall_of_four_parts");
     ASSERT_TRUE(run.capture && parts.capture) << run.outcome.err;
     const Body body = measure(*run.capture), same = measure(*parts.capture);
     EXPECT_NEAR(body.area, same.area, 0.01 * same.area);
@@ -99,7 +88,7 @@ TEST(StencilTest, by_invisible_marks_cuts_a_hole) {
 }
 
 TEST(StencilTest, by_slabs_caps_are_the_same) {
-    const StencilRun run = cast("cap_of_a_hollow_box", {{"GLCAST_LAYERS", "slab"}});
+    const CastRun run = cast("cap_of_a_hollow_box", {{"GLCAST_LAYERS", "slab"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
     const Body body = measure(*run.capture);
     EXPECT_NEAR(body.volume, 3.5, 0.07);
@@ -107,7 +96,7 @@ TEST(StencilTest, by_slabs_caps_are_the_same) {
 }
 
 TEST(StencilTest, whose_marks_lie_in_the_window_is_not_followed_and_said) {
-    const StencilRun run = cast("in_part_of_the_window");
+    const CastRun run = cast("in_part_of_the_window");
     ASSERT_TRUE(run.capture) << run.outcome.err;
     EXPECT_NEAR(measure(*run.capture).volume, 8, 0.16);
     ASSERT_EQ(run.capture->info.not_understood.size(), 1u) << run.outcome.err;

@@ -50,18 +50,15 @@ Library from_pattern(const std::string& pattern, std::size_t at) {
 } // namespace
 
 std::string Library::preload(const fs::path& scratch) const {
-    const bool splits = file.string().find_first_of(" :") != std::string::npos;
-    if (other.empty() || (!splits && prefix.string().find('$') != std::string::npos)) {
-        if (!splits) return file.string();
+    const bool is_special = file.string().find_first_of(" :$") != std::string::npos;
+    if (other.empty()) {
+        if (!is_special) return file;
         fs::create_symlink(file, scratch / name);
         return scratch / name;
     }
-    fs::path root = prefix;
-    if (splits) {
-        root = scratch / "root";
-        fs::create_directory_symlink(prefix, root);
-    }
-    return root / lib / "glcast" / name;
+    if (!is_special) return prefix / lib / "glcast" / name;
+    fs::create_directory_symlink(prefix, scratch / "root");
+    return scratch / "root" / lib / "glcast" / name;
 }
 
 Library find_library() {

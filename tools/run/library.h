@@ -12,8 +12,8 @@ struct Library {
 
     /// What LD_PRELOAD names. With both there it is PREFIX/$LIB/glcast/libglcast.so: the loader of each
     /// process puts its own folder for $LIB (ld.so(8)), so that a script and the 32-bit program that it
-    /// starts both find theirs. Where the path has a space or a colon, at which the loader splits, it goes
-    /// through a link in `scratch`.
+    /// starts both find theirs. Where the path has a space or a colon, at which the loader splits, or a
+    /// dollar, it goes through a link in `scratch`.
     std::string preload(const std::filesystem::path& scratch) const;
 
     std::filesystem::path prefix; ///< of both, when they lie as PREFIX/$LIB/glcast/libglcast.so

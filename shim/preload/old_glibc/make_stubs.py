@@ -1,12 +1,12 @@
 """Makes libraries to link with that have no more than glibc VERSION had, so that what is linked loads there.
 
-  make_stubs.py FOLDER VERSION MAP_FILE COMPILER [FLAG...]
+  make_stubs.py FOLDER VERSION STAMP COMPILER [FLAG...]
 
 Old programs live in old systems, and the library is preloaded there. Each symbol of the C library of this machine is
 given the newest version it has up to VERSION; one that came later is missing, and shows at link time. FOLDER gets
 libc.so (a linker script), libc.so.6, libm.so, libpthread.so and libdl.so with the names that an old glibc has for them:
 what is in libc.so.6 from glibc 2.34 on is looked for in libpthread.so.0 and libdl.so.2, which a newer glibc keeps as
-empty files with these versions.
+empty files with these versions. STAMP is made when all is there.
 """
 import os
 import re

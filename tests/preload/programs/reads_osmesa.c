@@ -9,10 +9,10 @@
 #ifdef OPENED
 #define EACH_CALL(X)                                                                                         \
     X(OSMesaCreateContextExt)                                                                                \
-    X(OSMesaCreateContextAttribs) X(OSMesaMakeCurrent) X(OSMesaGetColorBuffer) X(OSMesaDestroyContext)       \
-        X(glReadPixels) X(glFinish) X(glGetError) X(glBegin) X(glNormal3fv) X(glVertex3f) X(glEnd)           \
-            X(glViewport) X(glMatrixMode) X(glLoadIdentity) X(glFrustum) X(glTranslatef) X(glEnable)         \
-                X(glClear)
+    X(OSMesaCreateContextAttribs)                                                                            \
+    X(OSMesaMakeCurrent) X(OSMesaGetColorBuffer) X(OSMesaDestroyContext) X(glReadPixels) X(glFinish)         \
+        X(glGetError) X(glBegin) X(glNormal3fv) X(glVertex3f) X(glEnd) X(glViewport) X(glMatrixMode)         \
+            X(glLoadIdentity) X(glFrustum) X(glTranslatef) X(glEnable) X(glClear)
 #define DECLARE(NAME) static __typeof__(NAME)* opened_##NAME;
 EACH_CALL(DECLARE)
 #define OSMesaCreateContextExt opened_OSMesaCreateContextExt
