@@ -14,13 +14,13 @@ constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
 constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
 constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
 constexpr std::size_t fewest = 4;         // triangles of a closed mesh
-constexpr std::size_t most_fitted = 10'000; // triangles
+constexpr std::size_t most_fitted = 10'000; // triangles, with little work
 constexpr double first_count = 65'536;    // triangles; sketches go down from here
 constexpr double sketch_step = 4;         // of counts
 constexpr double sketch_close_enough = 2; // of counts between which a limit lies
 constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
 // Of the errors of a bare level, by the fits: coarse levels gain, of the finest limit the 99.9 % alone.
-constexpr double coarse_count = 8'000, p999_left = 0.85, mean_left = 0.66, finest_mean_to_p999 = 0.1;
+constexpr double p999_left = 0.85, mean_left = 0.69, finest_mean_to_p999 = 0.1;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
@@ -44,7 +44,7 @@ SizedLimit error_within(double pixels, int n) {
 }
 
 double LevelSearch::Estimate::share(const SizedLimit& limit) const {
-    const bool gains = bare && count <= coarse_count, mean_gains = gains && !is_finest(limit);
+    const bool gains = bare && count <= most_fitted, mean_gains = gains && !is_finest(limit);
     return std::max((gains ? p999_left : 1) * error.p999 / limit.p999,
                     (mean_gains ? mean_left : 1) * error.mean / limit.mean);
 }
