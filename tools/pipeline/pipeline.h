@@ -1,12 +1,14 @@
 // From a capture file to levels of detail, and to their files: all that happens behind a capture. Prints
 // nothing.
 //
+// clang-format off
 //     PipelineOptions how;
-//     how.targets = {{.value = 2000}}; // triangles; without: default_pixels()
+//     how.targets = {{.value = 2000}}; // triangles; without: levels for n/2, n/4, n/8, n/16 pixels
 //     const MeshedCapture made = mesh_capture("gears.exr", "gears.glb", how);
 //     for (std::size_t k = 0; k < made.levels.size(); ++k)
 //         std::printf("%s: %zu triangles, 99.9 %% within %g samples\n", made.files[k].c_str(),
 //                     made.checks[k].triangles, made.levels[k].error.p999 / made.sample);
+// clang-format on
 #pragma once
 #include <filesystem>
 #include <functional>
