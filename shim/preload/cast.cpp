@@ -189,7 +189,7 @@ class Cast {
         wanted.backdrops = options.keep_backdrops;
         const auto places = std::make_shared<std::vector<DrawPlaces>>(parts.size());
         return [this, &candidate, wanted, places](const GlTable& table, const Sought& sought) {
-            patience.render_begins();
+            if (!sought.only_places) patience.render_begins();
             for (std::size_t part = 0; part < parts.size(); ++part)
                 if (candidate.in_part[part] >= 0)
                     replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table,

@@ -135,4 +135,6 @@ void prepare(const Frame& frame) {
     }
 }
 
+bool is_prepared(const Frame& frame) { return frame.prepared != nullptr; }
+
 } // namespace glcast::record
