@@ -91,8 +91,8 @@ bool OpenTiles::meet(const Cover& cover) const {
     return false;
 }
 
-Outline::Outline(const Box& of, Axis axis, int m)
-    : box(of), axes(image_axes(axis)), m(m), rounding(rounding_of(of)),
+Outline::Outline(const Box& of, Axis axis, int m, const glm::dvec3& seen_lo, const glm::dvec3& seen_hi)
+    : box(of), axes(image_axes(axis)), m(m), rounding(rounding_of(of)), seen_lo(seen_lo), seen_hi(seen_hi),
       left_lo(std::numeric_limits<double>::infinity()), left_hi(-std::numeric_limits<double>::infinity()) {}
 
 /// Across the image, what lies in the same outermost pixels as the rest widens nothing; in depth, what lies
@@ -119,7 +119,11 @@ Outline::Limits Outline::limits_of(const glm::dvec3& lo, const glm::dvec3& hi) c
 }
 
 bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi) {
-    if (!limits || limits->of_lo != lo || limits->of_hi != hi) limits = limits_of(lo, hi);
+    if (!limits || limits->of_lo != lo || limits->of_hi != hi) {
+        const bool has_seen = seen_lo.x <= seen_hi.x;
+        limits = has_seen ? limits_of(glm::max(lo, seen_lo), glm::min(hi, seen_hi)) : limits_of(lo, hi);
+        limits->of_lo = lo, limits->of_hi = hi;
+    }
     for (const int i : {axes.u, axes.v, axes.depth})
         if (!(place.lo[i] > limits->lo[i] && place.hi[i] < limits->hi[i])) return false;
     const double carried = carried_depth(place, axes.depth, box, m, rounding) * box.size;

@@ -79,10 +79,10 @@ class OpenTiles {
 /// What is then seen must enclose them, else they are to be drawn after all.
 class Outline {
   public:
-    /// An image of m x m pixels of the box.
-    Outline(const Box& box, Axis axis, int m);
+    /// An image of m x m pixels of the box. `seen_lo`, `seen_hi`: what is known to reach at least so far.
+    Outline(const Box& box, Axis axis, int m, const glm::dvec3& seen_lo, const glm::dvec3& seen_hi);
 
-    /// `lo`, `hi`: of everything.
+    /// `lo`, `hi`: of everything, seen or not.
     bool leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi);
     bool has_left_out() const { return left_lo.x <= left_hi.x; }
     /// Do these bounds, in the capture frame, enclose what was left out?
@@ -99,7 +99,8 @@ class Outline {
     const Box box;
     const ImageAxes axes;
     const int m;
-    double rounding; ///< of a driver, in boxes
+    const double rounding; ///< of a driver, in boxes
+    const glm::dvec3 seen_lo, seen_hi;
     glm::dvec3 left_lo, left_hi;
     std::optional<Limits> limits;
 };
