@@ -16,7 +16,7 @@ namespace {
 
 using exr::Bytes;
 
-constexpr exr::Compression compression = exr::Compression::zip; // why: docs/capture-format.md
+constexpr exr::Compression compression = exr::Compression::zip; // why: docs/reference/capture-format.md
 
 // Alphabetical, as OpenEXR stores them. Half normals would be off by 0.02 degrees, float ones are not (docs).
 const exr::Channel channel_table[] = {{"A", true},    {"B", true},    {"G", true},
@@ -104,6 +104,7 @@ void add_capture(Bytes& to, const CaptureInfo& info) {
     for (const auto& [what, count] : info.not_understood)
         counts.push_back(std::to_string(count) + " " + what);
     exr::add_strings(to, "glcast.notUnderstood", counts);
+    if (info.reversed_backs && !info.both_sides) exr::add_string(to, "glcast.backs", backs_reversed);
     exr::add_string(to, "glcast.layers", layers_name(info.layers));
     exr::add_string(to, "glcast.layerMethod", layer_method_name(info.layer_method));
     exr::add_v3i(to, "glcast.layerCount", info.layer_count.data());

@@ -1,4 +1,4 @@
-// Writing a capture: multi-part OpenEXR, one part per view and layer (docs/capture-format.md).
+// Writing a capture: multi-part OpenEXR, one part per view and layer (docs/reference/capture-format.md).
 #pragma once
 #include <array>
 #include <map>
@@ -14,6 +14,7 @@ namespace glcast {
 
 inline constexpr int capture_format_version = 3; ///< the newest that is read
 inline constexpr int most_seen_places = 32;
+inline constexpr const char* backs_reversed = "reversed"; ///< the one value of glcast.backs
 
 /// What is true of the whole capture; in the header of every part.
 struct CaptureInfo {
@@ -33,7 +34,10 @@ struct CaptureInfo {
     std::string renderer; ///< GL_RENDERER
     std::string normals;  ///< "signed" or "six"
     std::string glcast_version;
-    bool both_sides = false;                    ///< hits are shown as either side sees them
+    bool both_sides = false; ///< hits are shown as either side sees them
+    /// Not with both_sides. All that is lit is lit on both sides: a viewer on the other side of a hit sees the
+    /// reverse of its normal.
+    bool reversed_backs = false;
     std::map<std::string, long> not_understood; ///< entry point or reason -> how often
 
     /// Known when all images are made: CaptureWriter::finish() sets them.

@@ -1,7 +1,7 @@
 // A GlTable that forces what a pass needs on whatever is drawn through it (design, section 3).
 #pragma once
 #include "capture/forced_state.h"
-#include "capture/gl/gl_table.h"
+#include "capture/gl/override_table.h"
 
 namespace glcast {
 
@@ -18,6 +18,7 @@ class ForcedTable {
     ForcedTable& operator=(const ForcedTable&) = delete;
 
     const GlTable& table() const { return forced; }
+    const GlTable& below() const { return real; }
 
     static ForcedTable& current();
 
@@ -29,6 +30,8 @@ class ForcedTable {
   private:
     GlTable forced;
 };
+
+extern const OverrideRules forced_rules;
 
 /// GL_CW for GL_CCW and the other way round; anything else unchanged.
 GLenum mirrored_winding(GLenum mode);

@@ -19,6 +19,8 @@ struct ViewImage {
     /// The same hits as a viewer on the other side would see them, were nothing in between; only in captures
     /// of both sides (CaptureInfo::both_sides), else empty: they look alike from there.
     std::vector<glm::vec4> other_colour, other_normal;
+    /// CaptureInfo::reversed_backs: from there they look alike but for the reversed normal.
+    bool reversed_backs = false;
 
     /// Depth of a pixel that nothing covers: 1 seen from minus, 0 seen from plus.
     static constexpr float background(Side side) { return side == Side::minus ? 1.0f : 0.0f; }

@@ -27,6 +27,8 @@ struct CastWindow {
     std::optional<Rating> to_beat; ///< what another window's cast is worth, which this one would replace
     bool replaces = false;         ///< what is captured so far
     long unanswered = 0;           ///< questions about windows that the X server left open
+    long unseen = 0;      ///< frames that came after it and were not recorded, before one without a solid
+    bool at_rest = false;          ///< on a thread of ours, with second contexts that are there already
 };
 
 /// On a thread where a context of the program's may be current; it and its drawables are so again afterwards.

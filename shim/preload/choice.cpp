@@ -60,22 +60,72 @@ void find_insets(std::vector<Candidate>& candidates, const Include& include) {
     }
 }
 
+constexpr ChoiceRule rules[] = {
+    {"may be cast", [](const Candidate& c, const Include&) -> long { return c.castable; }},
+    {"is not painted over", [](const Candidate& c, const Include&) -> long { return !c.group.erased; }},
+    {"is no backdrop", [](const Candidate& c, const Include&) -> long { return !c.backdrop; }},
+    {"is no inset", [](const Candidate& c, const Include&) -> long { return !c.inset; }},
+    // Of those that the rules so far leave equal, which are in front:
+    {"does not only help to draw another",
+     [](const Candidate& c, const Include&) -> long { return !c.helper; }},
+    {"has half the triangles of the richest",
+     [](const Candidate& c, const Include&) -> long { return c.rich; }},
+    {"is drawn to the window itself",
+     [](const Candidate& c, const Include&) -> long { return c.rich && c.group.framebuffer == 0; }},
+    // Of the four views of a CAD program that one.
+    {"is seen in perspective",
+     [](const Candidate& c, const Include&) -> long {
+         return c.rich && c.group.kind == ProjectionKind::perspective;
+     }},
+    {"has most triangles",
+     [](const Candidate& c, const Include& include) { return substance(c.group, include); }},
+    {"has most lines and points",
+     [](const Candidate& c, const Include&) -> long { return c.group.lines + c.group.points; }},
+    {"is largest on the screen", [](const Candidate& c, const Include&) { return area(c.group); }},
+};
+constexpr std::size_t front_rules = 4; ///< rules that say what is in front of all else
+
+bool is_castable(const Candidate& c, const Include& include) {
+    return c.group.is_spatial() && substance(c.group, include) > 0;
+}
+
+/// How far a group is in front, by the first rules alone: one number that orders as these do.
+long front(const Candidate& c, const Include& include) {
+    long all = 0;
+    for (std::size_t i = 0; i < front_rules; ++i) all = 2 * all + rules[i].score(c, include);
+    return all;
+}
+
 /// Of several framebuffers with a scene, none of them the window's, the one that was drawn to last, be it by
 /// what lies over the scene. What went before helped to draw it (shadow and reflection maps, the numbers that
 /// OpenCSG marks its bodies with, the colours by which dreamchess finds what the pointer is on).
 template <class IsScene>
-GLuint shown_framebuffer(const std::vector<Candidate>& candidates, const IsScene& is_scene) {
+GLuint shown_framebuffer(const std::vector<Candidate>& candidates, const IsScene& may_be_shown) {
     GLuint shown = 0;
     long last = -1;
     for (const Candidate& c : candidates) {
         const auto shares = [&](const Candidate& o) {
-            return o.group.framebuffer == c.group.framebuffer && is_scene(o);
+            return o.group.framebuffer == c.group.framebuffer && may_be_shown(o);
         };
         if (c.group.last_draw <= last || std::none_of(candidates.begin(), candidates.end(), shares)) continue;
         last = c.group.last_draw;
         shown = c.group.framebuffer;
     }
     return shown;
+}
+
+void find_helpers(std::vector<Candidate>& candidates, const Include& include) {
+    long best = 0, richest = 0;
+    for (const Candidate& c : candidates) best = std::max(best, front(c, include));
+    for (const Candidate& c : candidates)
+        if (front(c, include) == best) richest = std::max(richest, substance(c.group, include));
+    const GLuint shown = shown_framebuffer(candidates, [&](const Candidate& c) {
+        return front(c, include) == best && helper_richness * substance(c.group, include) >= richest;
+    });
+    for (Candidate& c : candidates) {
+        c.helper = shown != 0 && c.group.framebuffer != 0 && c.group.framebuffer != shown;
+        c.rich = 2 * substance(c.group, include) >= richest;
+    }
 }
 
 } // namespace
@@ -112,46 +162,43 @@ std::vector<Candidate> merge(const std::vector<Scene>& scenes,
 
 bool is_scene(const Candidate& candidate) { return candidate.castable && !candidate.backdrop; }
 
-void rank(std::vector<Candidate>& candidates, const Include& include, bool pictures_of_all,
-          const std::function<Thumbnail(const Candidate&)>& draw_picture) {
-    for (Candidate& c : candidates) {
-        const long solid = substance(c.group, include);
-        c.castable = c.group.is_spatial() && solid > 0;
-    }
+void draw_pictures(std::vector<Candidate>& candidates, const Include& include, bool pictures_of_all,
+                   const std::function<Thumbnail(const Candidate&)>& draw_picture) {
     std::stable_sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
-        return std::tuple(a.castable, substance(a.group, include)) >
-               std::tuple(b.castable, substance(b.group, include));
+        return std::tuple(is_castable(a, include), substance(a.group, include)) >
+               std::tuple(is_castable(b, include), substance(b.group, include));
     });
-    for (std::size_t i = 0; i < candidates.size() && i < most_pictures; ++i) {
-        Candidate& c = candidates[i];
-        if (!pictures_of_all && !c.castable) continue;
-        c.picture = draw_picture(c);
+    for (std::size_t i = 0; i < candidates.size() && i < most_pictures; ++i)
+        if (pictures_of_all || is_castable(candidates[i], include))
+            candidates[i].picture = draw_picture(candidates[i]);
+}
+
+void judge(std::vector<Candidate>& candidates, const Include& include) {
+    for (Candidate& c : candidates) {
+        c.castable = is_castable(c, include);
         c.backdrop = c.castable && c.group.kind != ProjectionKind::perspective && c.picture.flat &&
                      c.picture.coverage >= backdrop_coverage;
     }
     find_insets(candidates, include);
-    const auto in_front = [](const Candidate& c) {
-        return std::tuple(c.castable, !c.group.erased, !c.backdrop, !c.inset);
+    find_helpers(candidates, include);
+}
+
+std::span<const ChoiceRule> choice_rules() { return rules; }
+
+const ChoiceRule* deciding_rule(const Candidate& a, const Candidate& b, const Include& include) {
+    const auto differs = [&](const ChoiceRule& rule) {
+        return rule.score(a, include) != rule.score(b, include);
     };
-    const auto best =
-        std::max_element(candidates.begin(), candidates.end(),
-                         [&](const auto& a, const auto& b) { return in_front(a) < in_front(b); });
-    long richest = 0;
-    for (const Candidate& c : candidates)
-        if (in_front(c) == in_front(*best)) richest = std::max(richest, substance(c.group, include));
-    const GLuint shown = shown_framebuffer(candidates, [&](const Candidate& c) {
-        return in_front(c) == in_front(*best) && helper_richness * substance(c.group, include) >= richest;
+    const auto* const rule = std::find_if(std::begin(rules), std::end(rules), differs);
+    return rule == std::end(rules) ? nullptr : rule;
+}
+
+void rank(std::vector<Candidate>& candidates, const Include& include) {
+    judge(candidates, include);
+    std::stable_sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
+        const ChoiceRule* const rule = deciding_rule(a, b, include);
+        return rule && rule->score(a, include) > rule->score(b, include);
     });
-    const auto key = [&](const Candidate& c) {
-        const long solid = substance(c.group, include);
-        const bool helps = shown != 0 && c.group.framebuffer != 0 && c.group.framebuffer != shown;
-        const bool rich = 2 * solid >= richest;
-        return std::tuple(in_front(c), !helps, rich, rich && c.group.framebuffer == 0,
-                          rich && c.group.kind == ProjectionKind::perspective, solid,
-                          c.group.lines + c.group.points, area(c.group));
-    };
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [&](const Candidate& a, const Candidate& b) { return key(a) > key(b); });
 }
 
 } // namespace glcast::preload

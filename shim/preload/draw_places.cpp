@@ -80,7 +80,7 @@ class PartCorners {
   public:
     explicit PartCorners(const DrawPlace& of) : draw(of) {}
 
-    void read(const record::DrawShape::Part& part) {
+    void read(const record::DrawParts::Part& part) {
         record::read_positions(part, xyz);
         corners.clear();
         glm::dvec3 largest(0);
@@ -141,16 +141,16 @@ bool is_finite(const Place& place) {
 
 } // namespace
 
-std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
+std::optional<DrawPlace> find_place(const record::DrawParts& draw, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture) {
     const glm::dmat4 whole = eye_to_capture * to_eye;
     const bool is_affine = whole[0][3] == 0 && whole[1][3] == 0 && whole[2][3] == 0 && whole[3][3] == 1;
-    if (!shape.is_known || !is_affine) return std::nullopt;
-    DrawPlace result{{}, shape.is_whole, shape.mode, whole, magnitudes(eye_to_capture) * magnitudes(to_eye)};
+    if (!draw.is_known || !is_affine) return std::nullopt;
+    DrawPlace result{{}, draw.is_whole, draw.mode, whole, magnitudes(eye_to_capture) * magnitudes(to_eye)};
     PartCorners read(result);
-    for (const auto& part : shape.parts) {
+    for (const auto& part : draw.parts) {
         read.read(part);
-        const Place place = PlaceFinder(read.corners).find(shape.mode, read.slack);
+        const Place place = PlaceFinder(read.corners).find(draw.mode, read.slack);
         if (!is_finite(place)) return std::nullopt;
         result.parts.push_back({part, place});
     }
@@ -180,7 +180,7 @@ DrawCover find_cover(const DrawPlace& place, const OpenTiles& tiles) {
     return result;
 }
 
-std::vector<DrawPlace::Part> primitives_of(const DrawPlace& place, const record::DrawShape::Part& part) {
+std::vector<DrawPlace::Part> primitives_of(const DrawPlace& place, const record::DrawParts::Part& part) {
     std::vector<DrawPlace::Part> result;
     PartCorners read(place);
     read.read(part);
@@ -191,7 +191,7 @@ std::vector<DrawPlace::Part> primitives_of(const DrawPlace& place, const record:
     return result;
 }
 
-std::vector<DrawPlace::Part> vertices_of(const DrawPlace& place, const record::DrawShape::Part& part) {
+std::vector<DrawPlace::Part> vertices_of(const DrawPlace& place, const record::DrawParts::Part& part) {
     std::vector<DrawPlace::Part> result;
     PartCorners read(place);
     read.read(part);

@@ -13,10 +13,10 @@
 namespace glcast::preload {
 
 struct DrawPlace {
-    struct Part : record::DrawShape::Part {
+    struct Part : record::DrawParts::Part {
         Place place;
     };
-    std::vector<Part> parts; ///< as in record::DrawShape
+    std::vector<Part> parts; ///< as in record::DrawParts
     bool is_whole;
     GLenum mode;
     glm::dmat4 to_capture{1.0}, magnitude{1.0}; ///< from the draw's coordinates; and what its sums are made of
@@ -25,7 +25,7 @@ struct DrawPlace {
 /// A draw in pieces that may have fragments in an image; the rest of it covers no pixel's centre.
 struct DrawCover {
     struct Piece {
-        record::DrawShape::Part part;
+        record::DrawParts::Part part;
         OpenTiles::Cover cover;
     };
     std::vector<Piece> pieces;
@@ -33,15 +33,15 @@ struct DrawCover {
 
 /// Of the draw that is played. Nothing where it is not known. `to_eye`: from the draw's coordinates to eye
 /// space.
-std::optional<DrawPlace> find_place(const record::DrawShape& shape, const glm::dmat4& to_eye,
+std::optional<DrawPlace> find_place(const record::DrawParts& draw, const glm::dmat4& to_eye,
                                     const glm::dmat4& eye_to_capture);
 
 /// Of the draw that is played.
 DrawCover find_cover(const DrawPlace& place, const OpenTiles& tiles);
 
 /// Primitives of a part of the draw that is played, or its vertices, as parts with places of their own.
-std::vector<DrawPlace::Part> primitives_of(const DrawPlace& place, const record::DrawShape::Part& part);
-std::vector<DrawPlace::Part> vertices_of(const DrawPlace& place, const record::DrawShape::Part& part);
+std::vector<DrawPlace::Part> primitives_of(const DrawPlace& place, const record::DrawParts::Part& part);
+std::vector<DrawPlace::Part> vertices_of(const DrawPlace& place, const record::DrawParts::Part& part);
 
 inline constexpr Place nowhere{glm::dvec3(INFINITY), glm::dvec3(-INFINITY), glm::dvec3(0),
                                glm::dvec3(INFINITY)};
@@ -82,13 +82,13 @@ class DrawPlaces {
 /// The parts of a draw that are drawn, in order, neighbours joined.
 class Selection {
   public:
-    void add(const record::DrawShape::Part& part) {
+    void add(const record::DrawParts::Part& part) {
         if (!parts.empty() && parts.back().first + parts.back().count >= part.first)
             parts.back().count = part.first + part.count - parts.back().first;
         else
             parts.push_back(part);
     }
-    std::vector<record::DrawShape::Part> parts;
+    std::vector<record::DrawParts::Part> parts;
 };
 
 /// Is all of it inside the box, so that nothing of it is clipped?

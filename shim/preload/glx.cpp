@@ -11,6 +11,7 @@
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
 #include "shim/preload/window_entries.h"
+#include "shim/preload/x_close.h"
 #include "shim/preload/x_errors.h"
 
 extern "C" {
@@ -90,6 +91,13 @@ class Glx : public WindowSystem {
                               : real().glXMakeCurrent(as_display(b.display), b.draw, context);
         return done && !trap.failed();
     }
+
+    bool bind_alone(void* display, void* context) const override {
+        return real().glXMakeContextCurrent &&
+               real().glXMakeContextCurrent(as_display(display), 0, 0, static_cast<GLXContext>(context));
+    }
+
+    void watch_display(void* display, void (*gone)(void*)) const override { call_before_close(display, gone); }
 
     bool can_return_to(const Binding& b) const override {
         return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::size_t long_part = 256; ///< elements
 
-void append(std::vector<GLuint>& elements, const record::DrawShape::Part& part) {
+void append(std::vector<GLuint>& elements, const record::DrawParts::Part& part) {
     for (std::uint32_t i = 0; i < part.count; ++i) elements.push_back(part.first + i);
 }
 
@@ -15,13 +15,13 @@ void repeat(std::vector<GLuint>& elements, GLuint element, std::size_t times) {
 
 } // namespace
 
-bool are_to_be_joined(const std::vector<record::DrawShape::Part>& parts) {
+bool are_to_be_joined(const std::vector<record::DrawParts::Part>& parts) {
     std::size_t all = 0;
     for (const auto& part : parts) all += part.count;
     return parts.size() > 1 && all < parts.size() * long_part;
 }
 
-std::vector<GLuint> join_parts(GLenum mode, const std::vector<record::DrawShape::Part>& parts) {
+std::vector<GLuint> join_parts(GLenum mode, const std::vector<record::DrawParts::Part>& parts) {
     const bool strip = mode == GL_TRIANGLE_STRIP || mode == GL_QUAD_STRIP;
     std::vector<GLuint> elements;
     for (const auto& part : parts) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "capture/gl/call_classes.h"
+
 namespace glcast::preload {
 namespace {
 
@@ -45,23 +47,30 @@ const GLubyte* APIENTRY get_string(GLenum name) {
     return reinterpret_cast<const GLubyte*>(masked->extensions.c_str());
 }
 
-GLenum APIENTRY no_status(GLenum) { return 0; }
-void APIENTRY no_names(GLsizei, GLuint*) {}
-void APIENTRY no_binding(GLenum, GLuint) {}
+enum When : unsigned { each_time = 1, no_framebuffers = 2 };
+constexpr const char* when_names[] = {"always", "fbo"};
+
+using G = GlTable;
+
+constexpr OverrideRule rules[] = {
+    {each_time, replace<get_string>(only<&G::GetString>), "GL_EXTENSIONS without what is masked"},
+    {no_framebuffers,
+     drop(calls::framebuffer_bindings + only<&G::GenFramebuffers, &G::GenRenderbuffers, &G::BindRenderbuffer,
+                                             &G::BindRenderbufferEXT, &G::CheckFramebufferStatus>),
+     "the entry points are there, as glvnd has them, and do nothing"},
+};
 
 } // namespace
+
+constinit const OverrideRules mask_rules = {"A driver that lacks something",
+                                            "GLCAST_MASK, for tests: what the capture sees of the driver",
+                                            rules, when_names};
 
 const GlTable& masked_table(const GlTable& real, const Mask& mask) {
     if (masked || !mask.any()) return masked ? masked->table : real;
     masked = new Masked{real, real.GetString, mask, {}};
-    GlTable& table = masked->table;
-    table.GetString = get_string;
-    if (!mask.framebuffers) return table;
-    table.GenFramebuffers = table.GenRenderbuffers = no_names;
-    table.BindFramebuffer = table.BindRenderbuffer = no_binding;
-    table.BindFramebufferEXT = table.BindRenderbufferEXT = no_binding;
-    table.CheckFramebufferStatus = no_status;
-    return table;
+    override_calls(masked->table, real, rules, each_time | (mask.framebuffers ? no_framebuffers : 0u));
+    return masked->table;
 }
 
 } // namespace glcast::preload

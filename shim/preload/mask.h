@@ -1,6 +1,6 @@
 // A driver that lacks something, played on one that has it.
 #pragma once
-#include "capture/gl/gl_table.h"
+#include "capture/gl/override_table.h"
 
 namespace glcast::preload {
 
@@ -11,6 +11,8 @@ struct Mask {
         false; ///< fbo: no framebuffer objects, though the entry points are there, as glvnd has them
     bool any() const { return floats || framebuffers; }
 };
+
+extern const OverrideRules mask_rules;
 
 /// `real`, less what the mask takes away. Kept for the life of the process: one mask a process.
 const GlTable& masked_table(const GlTable& real, const Mask& mask);

@@ -3,6 +3,7 @@
 // read.
 #include <GL/osmesa.h>
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <vector>
@@ -86,8 +87,18 @@ class Osmesa : public WindowSystem {
 };
 const Osmesa osmesa;
 
-/// Whether the recorder's GL is OSMesa's: a program may have another one beside it.
-bool is_recorded() { return in_osmesa(find_symbol("glFinish")); }
+/// Whether the recorder's GL is OSMesa's: a program may have another one beside it. The answer is kept, as
+/// the stubs keep the functions that they have found.
+bool is_recorded() {
+    enum Answer { unknown, no, yes };
+    static constinit std::atomic<Answer> kept{unknown};
+    if (kept == unknown) {
+        const void* const finish = find_symbol("glFinish");
+        if (!finish) return false;
+        kept = in_osmesa(finish) ? yes : no;
+    }
+    return kept == yes;
+}
 
 /// Contexts of ours have a format that fits the spare memory.
 template <class Create> OSMesaContext make_context(GLenum format, OSMesaContext share, const Create& create) {

@@ -2,7 +2,7 @@
 //
 // The stack is switched, not the thread: the current context (a thread-local of glvnd and of every driver),
 // locks of Xlib that the program holds, and errno belong to the thread. Why, and what was considered:
-// docs/transparency.md.
+// docs/measured/transparency.md.
 #pragma once
 #include <memory>
 #include <type_traits>

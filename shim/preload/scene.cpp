@@ -82,13 +82,13 @@ class GroupFilter final : public DrawGate {
 
     /// Null where it is not known.
     const DrawPlace* place_of(const Draw& draw, GLenum mode) {
-        const record::DrawShape* shape = places && has_faces(mode) ? record::shape_of_draw() : nullptr;
-        if (!shape) return nullptr;
+        const record::DrawParts* drawn = places && has_faces(mode) ? record::parts_of_draw() : nullptr;
+        if (!drawn) return nullptr;
         return places->of(next - 1, [&] {
             glm::dmat4 to_eye(1.0);
             inner.GetDoublev(GL_MODELVIEW_MATRIX, glm::value_ptr(to_eye));
             if (draw.eye_map >= 0) to_eye = scene.eye_maps[draw.eye_map].apply(to_eye);
-            return find_place(*shape, to_eye, sought.eye_to_capture);
+            return find_place(*drawn, to_eye, sought.eye_to_capture);
         });
     }
 
@@ -172,18 +172,22 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops) {
     return draw.before_depth ? backdrops && draw.writes_colour : draw.tests_depth;
 }
 
+void Sides::add(const Sides& more) {
+    coloured |= more.coloured, culled |= more.culled;
+    lit_on_both |= more.lit_on_both, lit_as_front |= more.lit_as_front;
+}
+
 Sides sides_of(const Scene& scene, int group) {
     Sides sides;
     std::set<long> by_culled[2]; // triangles of draws without fronts, without backs
     for (const Draw& draw : scene.draws) {
         if (draw.group != group || !is_solid(draw, scene.groups[group], false)) continue;
-        sides.apart |= draw.two_colours;
+        sides.add({draw.two_colours, false, draw.lit_on_both, draw.lit_as_front});
         if (draw.culled == GL_FRONT || draw.culled == GL_BACK)
             by_culled[draw.culled == GL_BACK].insert(draw.triangles);
     }
     for (const long triangles : by_culled[0])
         sides.culled |= triangles > 0 && by_culled[1].contains(triangles);
-    sides.apart |= sides.culled;
     return sides;
 }
 

@@ -104,6 +104,7 @@ struct Draw {
     long triangles = 0;       ///< or lines, or points
     int eye_map = -1;         ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
     bool two_colours = false; ///< its fronts and its backs are lit with materials of their own
+    bool lit_on_both = false, lit_as_front = false; ///< light turns the normals of its backs; does not
     GLenum culled = GL_NONE;  ///< its faces that are not drawn
     StencilUse stencil;       ///< as planned (stencil_plan.h)
     bool is_outline = false;  ///< around the picture of something (stencil_plan.h)
@@ -154,8 +155,15 @@ bool is_solid(const Draw& draw, const Group& of, bool backdrops);
 
 /// How the solid draws of a group tell fronts from backs.
 struct Sides {
-    bool apart = false;  ///< they look different
-    bool culled = false; ///< since fronts and backs of the same are drawn one after the other
+    bool coloured = false; ///< lit with materials of their own
+    bool culled = false;   ///< fronts and backs of the same are drawn one after the other
+    bool lit_on_both = false, lit_as_front = false; ///< as in Draw
+
+    void add(const Sides& more);
+    /// They must be drawn each by itself.
+    bool are_apart() const { return coloured || culled || (lit_on_both && lit_as_front); }
+    /// They look alike, but that the normal of a back is the reverse of the front's.
+    bool are_reversed() const { return lit_on_both && !are_apart(); }
 };
 Sides sides_of(const Scene& scene, int group);
 

@@ -51,12 +51,14 @@ std::optional<glm::dmat4> scale_before_view(const glm::dmat4& projection, const 
     return matrix;
 }
 
-/// Backs are lit by a material of their own, with a colour that ours show.
-bool has_two_colours(const GlTable& gl) {
-    if (!gl.IsEnabled(GL_LIGHTING)) return false;
+bool lights_two_sides(const GlTable& gl) {
     GLboolean two_sided = GL_FALSE;
     gl.GetBooleanv(GL_LIGHT_MODEL_TWO_SIDE, &two_sided);
-    if (!two_sided) return false;
+    return two_sided;
+}
+
+/// Of what is lit from two sides: backs have a material of their own, with a colour that ours show.
+bool has_two_colours(const GlTable& gl) {
     GLenum tracked = GL_NONE;
     if (gl.IsEnabled(GL_COLOR_MATERIAL)) {
         tracked = mapped_material(static_cast<GLenum>(get_int(gl, GL_COLOR_MATERIAL_PARAMETER)));
@@ -198,7 +200,13 @@ class Analysis final : public DrawGate {
         if (draw.hides) group.hidden_triangles += number;
         if (draw.kind == Draw::Kind::filled && draw.is_open) group.open_triangles[draw.mirrors] += number;
         if (gives_w && hands_over_clip) wonder_about_w();
-        if (draw.kind == Draw::Kind::filled) draw.two_colours |= has_two_colours(inner);
+        if (draw.kind == Draw::Kind::filled && inner.IsEnabled(GL_LIGHTING)) note_lit_sides(draw);
+    }
+
+    void note_lit_sides(Draw& draw) {
+        const bool two_sided = lights_two_sides(inner);
+        (two_sided ? draw.lit_on_both : draw.lit_as_front) = true;
+        draw.two_colours |= two_sided && has_two_colours(inner);
     }
 
     void drawn() override {

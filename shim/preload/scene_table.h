@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "capture/gl/gl_table.h"
+#include "capture/gl/override_table.h"
 #include "shim/record/record.h"
 
 namespace glcast::preload {
@@ -44,10 +44,11 @@ class DrawGate {
     virtual bool blending_restored() { return false; }
 
     const GlTable& inner;
+    const GlTable& below() const { return inner; }
 
     // Of the draw that was kept, where it is glDrawArrays or glDrawElements.
     bool as_points = false;                                    ///< its vertices are drawn as GL_POINTS
-    std::optional<std::vector<record::DrawShape::Part>> parts; ///< what is drawn of it; nothing: all
+    std::optional<std::vector<record::DrawParts::Part>> parts; ///< what is drawn of it; nothing: all
 
     // Of the glBegin that is open; the table's functions keep these.
     bool swallowing = false;
@@ -60,6 +61,8 @@ class DrawGate {
     };
     std::vector<SavedBlend> saved_blends;
 };
+
+extern const OverrideRules gate_rules;
 
 bool has_faces(GLenum mode);
 /// Triangles, lines or points that the vertices make.

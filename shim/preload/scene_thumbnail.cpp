@@ -3,47 +3,51 @@
 #include <algorithm>
 
 #include "capture/engine_target.h"
-#include "shim/preload/ignored_calls.h"
+#include "capture/gl/call_classes.h"
 
 namespace glcast::preload {
 namespace {
 
-constinit thread_local const GlTable* real = nullptr;
-constinit thread_local bool culls = true; ///< the program may
-
-bool is_ours(GLenum cap) {
-    return (cap == GL_CULL_FACE && !culls) || cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST ||
-           cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
-}
-void APIENTRY enable(GLenum cap) {
-    if (!is_ours(cap)) real->Enable(cap);
-}
-void APIENTRY disable(GLenum cap) {
-    if (!is_ours(cap)) real->Disable(cap);
-}
-void APIENTRY push_attrib(GLbitfield mask) {
-    real->PushAttrib(mask & ~GLbitfield(GL_VIEWPORT_BIT | GL_SCISSOR_BIT | GL_STENCIL_BUFFER_BIT));
-}
-
 using G = GlTable;
+enum When : unsigned { each_time = 1, all_depths = 2 };
+constexpr const char* when_names[] = {"always", "depths are read"};
+constexpr GLbitfield own_groups = GL_VIEWPORT_BIT | GL_SCISSOR_BIT | GL_STENCIL_BUFFER_BIT;
+
+constexpr OverrideRule rules[] = {
+    {each_time, drop(calls::viewports + calls::scissors), "the picture has a size of its own"},
+    {each_time, drop(calls::stencil), "it marks what is drawn on"},
+    {each_time, drop(calls::clears + calls::clear_values + only<&G::Clear, &G::ClearColor>),
+     "cleared once, before"},
+    {each_time, drop(calls::framebuffers + calls::draw_buffers), "our framebuffer"},
+    {each_time, drop(only<&G::ColorMask, &G::Accum>), "all colours, of what is drawn"},
+    {each_time, drop(calls::texture_copies), "would copy our picture into shared textures"},
+    {each_time, drop(calls::pixel_reads), "only we read"},
+    {each_time, drop(calls::waits), "we wait for what we read"},
+    {each_time, drop(only<&G::RenderMode>), "selection and feedback draw nothing"},
+    {each_time, handle<SwitchNotOwned<PictureTable>>(only<&G::Enable, &G::Disable>),
+     "scissor, stencil and dither are the picture's; culling where all faces are wanted"},
+    {each_time, handle<SaveWithout<PictureTable, own_groups>>(only<&G::PushAttrib>),
+     "the picture's state stays as it is"},
+    {all_depths, drop(only<&G::DepthMask>), "whatever is drawn has a depth"},
+};
 
 } // namespace
 
-GlTable picture_table(const GlTable& gl, bool program_culls) {
-    real = &gl;
-    culls = program_culls;
-    GlTable table = gl;
-    ignore<&G::Viewport, &G::Scissor, &G::StencilFunc, &G::StencilOp, &G::StencilMask,
-           &G::StencilFuncSeparate, &G::StencilOpSeparate, &G::StencilMaskSeparate, &G::Clear, &G::ClearColor,
-           &G::ClearDepth, &G::ClearStencil, &G::DrawBuffer, &G::DrawBuffers, &G::ReadBuffer,
-           &G::BindFramebuffer, &G::BindFramebufferEXT, &G::BlitFramebuffer, &G::BlitFramebufferEXT,
-           &G::DeleteFramebuffers, &G::DeleteFramebuffersEXT, &G::Accum, &G::ColorMask, &G::CopyTexImage1D,
-           &G::CopyTexImage2D, &G::CopyTexSubImage1D, &G::CopyTexSubImage2D, &G::CopyTexSubImage3D,
-           &G::ReadPixels, &G::Flush, &G::Finish, &G::RenderMode>(table);
-    table.Enable = enable;
-    table.Disable = disable;
-    table.PushAttrib = push_attrib;
-    return table;
+constinit const OverrideRules picture_rules = {
+    "A small picture", "What the program shows, in a picture of ours: thumbnails and questions to the scene",
+    rules, when_names};
+
+PictureTable::PictureTable(const GlTable& gl, PictureFaces faces, PictureDepths depths)
+    : real(gl), culls(faces == PictureFaces::program), picture(gl) {
+    table_owner<PictureTable> = this;
+    override_calls(picture, real, rules, each_time | (depths == PictureDepths::all ? all_depths : 0u));
+}
+
+PictureTable::~PictureTable() { table_owner<PictureTable> = nullptr; }
+
+bool PictureTable::owns(GLenum cap) const {
+    return (cap == GL_CULL_FACE && !culls) || cap == GL_SCISSOR_TEST || cap == GL_STENCIL_TEST ||
+           cap == GL_FRAMEBUFFER_SRGB || cap == GL_DITHER;
 }
 
 namespace {
@@ -108,7 +112,7 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
     const Target target(calls, size, false);
     if (!target.complete()) return thumbnail;
     prepare(calls, target, thumbnail.width, thumbnail.height, depth_reversed);
-    draw(picture_table(calls));
+    draw(PictureTable(calls).table());
     gl.Finish();
     target.bind();
     read(calls, target, thumbnail);
@@ -128,9 +132,8 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     picture.stride = size;
     prepare(calls, target, sides.width, sides.height, false);
     gl.Disable(GL_CULL_FACE);
-    GlTable table = picture_table(calls, program_culls);
-    ignore<&G::DepthMask>(table);
-    draw(table);
+    const auto faces = program_culls ? PictureFaces::program : PictureFaces::all;
+    draw(PictureTable(calls, faces, PictureDepths::all).table());
     gl.Finish();
     target.bind();
     target.read_depth(picture.depth);

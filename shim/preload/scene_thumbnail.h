@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "capture/engine.h"
-#include "capture/gl/gl_table.h"
+#include "capture/gl/override_table.h"
 
 namespace glcast::preload {
 
@@ -22,9 +22,29 @@ struct Thumbnail {
     bool flat = false;             ///< all of it at one depth
 };
 
-/// What the program draws, but where to and what it wipes away; with `culls` false, nor does it cull. One at
-/// a time on a thread, while `gl` lives.
-GlTable picture_table(const GlTable& gl, bool culls = true);
+enum class PictureFaces { program, all };  ///< as the program culls; or whatever it culls
+enum class PictureDepths { program, all }; ///< written where the program does; or by all that is drawn
+
+/// What the program draws, but where to and what it wipes away. One at a time on a thread.
+class PictureTable {
+  public:
+    explicit PictureTable(const GlTable& gl, PictureFaces faces = PictureFaces::program,
+                          PictureDepths depths = PictureDepths::program);
+    ~PictureTable();
+    PictureTable(const PictureTable&) = delete;
+    PictureTable& operator=(const PictureTable&) = delete;
+
+    const GlTable& table() const { return picture; }
+    const GlTable& below() const { return real; }
+    bool owns(GLenum cap) const;
+
+  private:
+    const GlTable& real;
+    const bool culls;
+    GlTable picture;
+};
+
+extern const OverrideRules picture_rules;
 
 /// Draws into a framebuffer of ours, in the current context. `draw` plays the group through the table that it
 /// is given; the program's viewport, scissor, stencil, clears and framebuffers are left out. `size`: of the

@@ -16,11 +16,6 @@ namespace {
 /// Parts kept for a swap to come; more are only seen where a program draws and never shows it.
 constexpr std::size_t most_parts = 32;
 
-/// Frames that are recorded before their time: so many, and after them those of a program that draws so
-/// seldom.
-constexpr long most_kept_early = 30;
-constexpr std::chrono::milliseconds seldom{100};
-
 std::atomic<Session*> existing{nullptr};
 /// Set while no frame is wanted, and read by every recorded call: threads then drop what they record.
 constinit std::atomic<bool> unwanted{false};
@@ -70,11 +65,11 @@ Session& session() {
 }
 
 void update_unwanted(Session& s) {
-    bool waiting = false;
+    bool wanted = false;
     do { // until it is so: two threads may be here, and the one that looked first may write last
-        waiting = s.triggers.waiting();
-        unwanted = !waiting;
-    } while (waiting != s.triggers.waiting());
+        wanted = s.wants_frames();
+        unwanted = !wanted;
+    } while (wanted != s.wants_frames());
 }
 
 namespace {
@@ -86,13 +81,14 @@ void greet(Session& s, const NativeContext& context) {
     s.triggers.look_for_signals();
     if (!s.options.key.empty()) tell("waits", "the key " + s.options.key + " was not pressed");
     if (s.options.signal) tell("waits", "the signal did not come");
-    if (s.options.key.empty() && !s.options.nudge) return;
+    if (!s.keeps_standing() && !s.options.nudge) return;
     start_watcher(s.options, context.system->server(context.display),
                   {.over = [&s] { return s.triggers.over(); },
-                   .waiting = [&s] { return s.triggers.waiting(); },
+                   .waiting = [&s] { return s.triggers.waiting() && is_late_enough(s); },
                    .frames = [&s] { return s.frames.load(); },
                    .fire = [&s] { s.triggers.fire(), update_unwanted(s); },
-                   .look_for_signals = [&s] { s.triggers.look_for_signals(), update_unwanted(s); }});
+                   .look_for_signals = [&s] { s.triggers.look_for_signals(), update_unwanted(s); },
+                   .cast_at_rest = [&s] { cast_at_rest(s); }});
 }
 
 void announce(Session& s, const NativeContext& context) {
@@ -126,7 +122,7 @@ void close_recording(Session& s, NativeContext& context) {
     std::string why;
     auto draws = static_cast<long>(record::draws_so_far(*context.shadow));
     auto frame = record::end_frame(*context.shadow, &why);
-    if (!s.triggers.waiting() || context.destroyed) return;
+    if (!s.wants_frames() || context.destroyed) return;
     if (!frame) return refuse(s, why);
     const auto owner = s.contexts.find(context.handle);
     if (owner == s.contexts.end()) return;
@@ -147,26 +143,13 @@ Ended frames_of(const Session& s, const NativeContext& context, std::uintptr_t d
     return most;
 }
 
-/// Whether to record before the time has come: the first frames, then those of a program that draws seldom.
-bool keeps_frames(Session& s) {
-    if (s.frames < most_kept_early) return true;
-    const std::lock_guard lock(s.mutex);
-    return s.last_interval >= seldom;
-}
-
-/// Of the frame that ended in `window` before its time.
-void keep(Session& s, std::vector<FramePart> parts, FrameKey window, long number) {
-    const auto draws = [](const FramePart& part) { return part.draws > 0; };
-    if (std::none_of(parts.begin(), parts.end(), draws)) return;
-    const std::lock_guard lock(s.mutex);
-    s.kept = {std::move(parts), window, number};
-}
+/// Whether a frame that ends now is cast.
+bool is_time(const Session& s) { return s.triggers.waiting() && is_late_enough(s); }
 
 bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
-    if (!s.triggers.waiting() || !context.shadow) return false;
-    if (!is_late_enough(s) && !keeps_frames(s)) return false;
+    if (!s.wants_frames() || !context.shadow) return false;
     const std::lock_guard lock(s.mutex);
-    if (context.destroyed) return false;
+    if (context.destroyed || (!is_time(s) && !s.pace.records_next())) return false;
     if (!s.has_shown) return true; // what a read may end, its number is not known before
     const Ended ended = frames_of(s, context, drawable);
     return ended.frames + 1 >= std::max(ended.next_wish, s.options.frame);
@@ -176,7 +159,7 @@ bool is_due(Session& s, const NativeContext& context, std::uintptr_t drawable) {
 
 /// Record what follows, if it may be the frame that is waited for.
 void start_recording(Session& s, NativeContext& context, std::uintptr_t drawable) {
-    if (context.recording && context.recorded_drawable == drawable && s.triggers.waiting()) return;
+    if (context.recording && context.recorded_drawable == drawable && s.wants_frames()) return;
     {
         const std::lock_guard lock(s.mutex);
         close_recording(s, context);
@@ -242,15 +225,14 @@ void end_frame(Session& s, NativeContext* context, std::uintptr_t drawable) {
         const std::lock_guard lock(s.mutex);
         s.swapped.insert(drawable);
         number = ++s.ended[window].frames;
-        const auto now = Clock::now();
-        s.last_interval = now - std::exchange(s.last_end, now);
+        s.pace.frame_ended(Clock::now());
     }
-    if (!s.triggers.waiting()) return;
+    if (!s.wants_frames()) return;
     auto parts = take_parts(s, context, drawable);
     keep_of_this_display(parts);
-    if (!is_late_enough(s)) return keep(s, std::move(parts), window, number);
+    if (!is_time(s)) return keep_standing(s, std::move(parts), window, number);
     if (number < s.options.frame) parts.clear();
-    const bool expected = context && number >= s.options.frame && is_late_enough(s);
+    const bool expected = context && number >= s.options.frame;
     if (!parts.empty() || expected)
         cast_parts(s, std::move(parts), thread_state.context, window, number, FrameEnd::shown);
 }
@@ -272,8 +254,8 @@ void end_late_part(Session& s, NativeContext& context) {
         for (const auto& [key, ended] : s.ended)
             if (ended.frames > number) window = key, number = ended.frames;
     }
-    if (!is_late_enough(s))
-        keep(s, std::move(parts), window, number);
+    if (!is_time(s))
+        keep_standing(s, std::move(parts), window, number);
     else if (!parts.empty())
         cast_parts(s, std::move(parts), &context, window, number, FrameEnd::shown);
     start_recording(s, context, thread_state.drawable);
@@ -296,7 +278,7 @@ bool always() { return true; }
 void frame_ends_here(Session& s, bool (*really)()) {
     NativeContext* const context = thread_state.context;
     if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
-    if (!s.triggers.waiting() || !context || !context->shadow) return;
+    if (!s.wants_frames() || !context || !context->shadow) return;
     if (record::busy(*context->shadow)) return;
     if (thread_state.drawable != 0 && !thread_state.is_pbuffer && really()) {
         end_frame(s, context, thread_state.drawable);
@@ -315,6 +297,8 @@ const GlTable& recording_table() {
         record::set_current(nullptr, real_table());
         thread_state.known = true;
     }
+    if (calls_wait_at_gate()) [[unlikely]]
+        pass_gate(session());
     if (unwanted.load(std::memory_order_relaxed) && thread_state.context && thread_state.context->recording)
         [[unlikely]] {
         Session& s = session();

@@ -116,9 +116,10 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     std::unique_lock lock(s.mutex);
     if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
         s.seen.other_windows.clear();
-        const bool may_follow = end == FrameEnd::shown
-                                    ? chooses_a_window(s.options) && s.windows.others_may_follow(drawable)
-                                    : takes_one(s.options);
+        const bool may_follow =
+            end == FrameEnd::first_read || end == FrameEnd::read
+                ? takes_one(s.options)
+                : chooses_a_window(s.options) && s.windows.others_may_follow(drawable);
         if (may_follow && !s.told_looks.exchange(true)) tell("looks", s.windows.list());
         return CastWindow{s.windows.describe(drawable),
                           s.holding && !s.read_is_held ? s.windows.held() : std::nullopt,
@@ -251,32 +252,39 @@ class HeldContexts {
     }
 };
 
-/// Whether a frame was drawn for it.
-bool cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window,
-                  long number, FrameEnd end) {
-    if (s.casting.exchange(true)) return false; // another thread casts
+bool is_read(FrameEnd end) { return end == FrameEnd::first_read || end == FrameEnd::read; }
+
+enum class Looked {
+    passed,  ///< it was not looked at
+    nothing, ///< solid is in it
+    done     ///< it was drawn, and cast if nothing went wrong
+};
+
+Looked cast_or_pass(Session& s, std::vector<FramePart>& parts, const NativeContext* current, FrameKey window,
+                    long number, FrameEnd end, long unseen = 0) {
+    if (s.casting.exchange(true)) return Looked::passed; // another thread casts
     struct Over {
         std::atomic<bool>& casting;
         ~Over() { casting = false; }
     } const over{s.casting};
-    if (!s.triggers.waiting()) return false; // it has cast the last that was wanted
+    if (!s.triggers.waiting()) return Looked::passed; // it has cast the last that was wanted
     const HeldContexts held(s, parts, current);
-    if (parts.empty()) return false;
-    const auto turn = take_turn(s, *parts.front().context, window.second, end);
-    if (!turn) return false;
+    if (parts.empty()) return Looked::passed;
+    auto turn = take_turn(s, *parts.front().context, window.second, end);
+    if (!turn) return Looked::passed;
+    turn->at_rest = end == FrameEnd::at_rest;
+    turn->unseen = unseen;
     const CastResult result = cast_frame(parts, number, s.options, *turn, s.listed);
     const bool nothing = result.outcome == CastOutcome::nothing_solid;
     if (end == FrameEnd::shown && s.read_is_open.exchange(false) && nothing) s.triggers.taken(); // it stays
-    if (end == FrameEnd::shown ? !among_windows(s, window.second, result) : !holds_a_read(s, result, end))
+    if (is_read(end) ? !holds_a_read(s, result, end) : !among_windows(s, window.second, result))
         nothing ? frame_without_cast(s, result.held) : finish(s, window, number, result);
-    return !nothing;
+    return nothing ? Looked::nothing : Looked::done;
 }
 
-/// What stands in the window, where nothing new with a solid came.
-Kept take_kept(Session& s) {
-    const std::lock_guard lock(s.mutex);
-    Kept kept = std::exchange(s.kept, {});
-    return s.triggers.waiting() ? kept : Kept{};
+void give_back_memory() {
+    record::give_back_spare_memory();
+    malloc_trim(0); // images, and the driver's textures, would stay in the program's heap
 }
 
 } // namespace
@@ -293,23 +301,59 @@ void count_first_read(Session& s) {
     update_unwanted(s);
 }
 
+bool is_asked_for(Session& s, const StandingPicture& picture) {
+    if (picture.number < s.options.frame) return false;
+    if (!s.options.key.empty() || s.options.signal != 0) return true;
+    const std::lock_guard lock(s.mutex);
+    const auto ended = s.ended.find(picture.window);
+    return ended == s.ended.end() || picture.number >= ended->second.next_wish;
+}
+
+bool cast_standing(Session& s, const NativeContext* current, FrameEnd end) {
+    std::vector<StandingPicture> pictures;
+    {
+        const std::lock_guard lock(s.mutex);
+        pictures = s.standing.all();
+    }
+    bool any = false;
+    for (StandingPicture& picture : pictures) {
+        if (!s.triggers.waiting() || !is_asked_for(s, picture)) continue;
+        if (end == FrameEnd::at_rest && picture.unseen > 0) continue; // it is another that stands there
+        keep_of_this_display(picture.parts);
+        Looked looked = Looked::passed;
+        on_own_stack(HeldSignals::handled, [&] {
+            looked = cast_or_pass(s, picture.parts, current, picture.window, picture.number, end,
+                                  picture.unseen);
+        });
+        if (looked == Looked::nothing) {
+            const std::lock_guard lock(s.mutex);
+            s.standing.forget_frame(picture.window, picture.number);
+        }
+        any |= looked == Looked::done;
+        if (any && !s.holding) break; // other windows may show more
+    }
+    if (any) give_back_memory();
+    return any;
+}
+
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number, FrameEnd end) {
-    bool has_drawn = false;
-    const auto draw = [&] {
+    if (parts.empty()) {
+        frame_without_cast(s, {});
+    } else {
+        if (end != FrameEnd::first_read) keep_standing(s, parts, window, number);
+        Looked looked = Looked::passed;
         on_own_stack(HeldSignals::handled,
-                     [&] { has_drawn = cast_or_pass(s, parts, current, window, number, end); });
+                     [&] { looked = cast_or_pass(s, parts, current, window, number, end); });
         parts.clear();
-    };
-    parts.empty() ? frame_without_cast(s, {}) : draw();
-    if (Kept kept = has_drawn || s.holding ? Kept{} : take_kept(s); !kept.parts.empty()) {
-        parts = std::move(kept.parts), window = kept.window, number = kept.number;
-        draw();
+        if (looked == Looked::done) {
+            give_back_memory();
+            return make_ready_for_rest(s);
+        }
+        const std::lock_guard lock(s.mutex);
+        if (looked == Looked::nothing) s.standing.forget_frame(window, number);
     }
-    if (!has_drawn) return;
-    take_kept(s);
-    record::give_back_spare_memory();
-    malloc_trim(0); // images, and the driver's textures, would stay in the program's heap
+    if (!s.holding && cast_standing(s, current, end)) make_ready_for_rest(s);
 }
 
 } // namespace glcast::preload

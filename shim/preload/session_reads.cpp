@@ -1,4 +1,4 @@
-// Frames that end where they are read, and drawables that no swap shows (docs/architecture.md, "Where a frame
+// Frames that end where they are read, and drawables that no swap shows (docs/design/architecture.md, "Where a frame
 // ends").
 #include <algorithm>
 #include <utility>
@@ -51,14 +51,14 @@ bool has_read_a_picture(Session& s, NativeContext& context, long pixels) {
 /// swap at all.
 void picture_is_read(Session& s, NativeContext& context, long pixels) {
     if (s.options.signal) s.triggers.look_for_signals(), update_unwanted(s);
-    if (!s.triggers.waiting() || s.holding || record::busy(*context.shadow)) return;
+    if (!s.wants_frames() || s.holding || record::busy(*context.shadow)) return;
     const std::uintptr_t drawable = thread_state.drawable;
     if (!context.recording) return start_recording(s, context, drawable);
     if (!has_read_a_picture(s, context, pixels)) return;
     ++s.frames;
     const FrameKey window(&context, drawable);
     if (s.pictures_read == 1) count_first_read(s);
-    if (!s.triggers.waiting()) return;
+    if (!s.wants_frames()) return;
     long number = 0, wish = 0;
     bool is_first = false;
     {
@@ -69,12 +69,15 @@ void picture_is_read(Session& s, NativeContext& context, long pixels) {
         number = ended.frames + 1;
         if (!is_first) ++ended.frames;
         wish = std::max(ended.next_wish, s.options.frame);
+        s.pace.frame_ended(Clock::now());
     }
     auto parts = is_first ? lend_parts(s, context) : take_parts(s, &context, drawable);
     keep_of_this_display(parts);
-    if (number >= wish && is_late_enough(s))
+    if (s.triggers.waiting() && is_late_enough(s) && number >= wish)
         cast_parts(s, std::move(parts), &context, window, number,
                    is_first ? FrameEnd::first_read : FrameEnd::read);
+    else if (!is_first) // its recording goes on
+        keep_standing(s, std::move(parts), window, number);
     start_recording(s, context, drawable);
 }
 
@@ -98,7 +101,7 @@ void offscreen_made(std::uintptr_t drawable, bool is_pbuffer) noexcept {
 bool reads_may_end_frames() noexcept {
     const Session* s = session_if_any();
     if (!s || !thread_state.context || !thread_state.context->shadow) return false;
-    return s->options.read_ends || (!s->has_shown.load(std::memory_order_relaxed) && s->triggers.waiting());
+    return s->options.read_ends || (!s->has_shown.load(std::memory_order_relaxed) && s->wants_frames());
 }
 
 void pixels_are_read(long pixels) noexcept {

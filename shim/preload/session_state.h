@@ -12,7 +12,9 @@
 
 #include "shim/preload/census.h"
 #include "shim/preload/host_thread.h"
+#include "shim/preload/rest_gate.h"
 #include "shim/preload/session.h"
+#include "shim/preload/standing.h"
 #include "shim/preload/status.h"
 #include "shim/preload/triggers.h"
 #include "shim/preload/windows.h"
@@ -25,17 +27,6 @@ struct Ended {
     long frames = 0;
     long next_wish = 1; ///< the first that may be cast
 };
-/// Frames are counted for each window of each context.
-using FrameKey = std::pair<const void*, std::uintptr_t>;
-
-/// The last whole frame with draws that can be replayed, of a program that need not draw again once its time
-/// has come.
-struct Kept {
-    std::vector<FramePart> parts;
-    FrameKey window;
-    long number = 0;
-};
-
 /// All that changes in the life of a process, but for what belongs to a thread.
 struct Session {
     const Options options = read_options();
@@ -46,9 +37,8 @@ struct Session {
     std::map<FrameKey, Ended> ended;
     std::set<std::uintptr_t> swapped; ///< drawables
     std::vector<FramePart> parts;     ///< of the frame that has not ended yet
-    Kept kept;
-    Clock::time_point last_end{};
-    Clock::duration last_interval{}; ///< between the ends of two frames
+    Pace pace;
+    StandingPictures standing;
     std::set<std::uintptr_t> pbuffers, pixmaps;
     long pictures_read = 0; ///< frames that a read has ended
     FrameKey first_read;    ///< where the first of these was, which counts when the second comes
@@ -69,6 +59,15 @@ struct Session {
     std::atomic<const char*> offscreen{nullptr}; ///< where it draws that is no window
     std::atomic<long> frames{0};
     std::atomic<Clock::time_point> start{}; ///< of GL: when the first context was made current
+    RestGate gate;
+    bool has_told_of_rest = false, needs_program_thread = false; ///< of our own thread
+
+    /// The picture that stands in the window is wanted as well as the next frame.
+    bool keeps_standing() const {
+        return options.after_seconds > 0 || !options.key.empty() || options.signal != 0;
+    }
+    /// One is to be cast, or to be kept until it is.
+    bool wants_frames() const { return triggers.waiting() || (keeps_standing() && !triggers.over()); }
 
     bool is_ours() const { return getpid() == pid; }
 };
@@ -90,11 +89,15 @@ extern thread_local ThreadState thread_state [[gnu::tls_model("initial-exec")]];
 /// For good: nothing will be captured. `why`, where not null, is told once.
 void give_up(const char* why) noexcept;
 
+/// The program's thread waits until no picture at rest is cast.
+void pass_gate(Session& s) noexcept;
+
 /// The one place where exceptions end: the shim gives up, the program goes on.
 template <class Work> void guarded(Work&& work) noexcept {
     try {
         Session& s = session();
         if (!s.options.armed || !s.is_ours()) return;
+        if (calls_wait_at_gate()) pass_gate(s);
         const HostThread program;
         work(s);
     } catch (const std::exception& error) {
@@ -121,7 +124,16 @@ void frame_ends_here(Session& s, bool (*really)());
 /// Whether frames are recorded follows from the triggers.
 void update_unwanted(Session& s);
 
-enum class FrameEnd { shown, first_read, read };
+/// A whole frame ended in `window` that is not cast now: it stands there, until another does. Empty: it was not
+/// recorded.
+void keep_standing(Session& s, std::vector<FramePart> parts, FrameKey window, long number);
+/// What our own thread needs to cast what stands, which it cannot ask an X server for.
+void make_ready_for_rest(Session& s);
+/// From our own thread, now and then: casts what stands in a program that draws nothing new.
+void cast_at_rest(Session& s);
+
+/// `at_rest`: long ago, by a swap; it is cast on a thread of our own.
+enum class FrameEnd { shown, first_read, read, at_rest };
 
 /// The frame that the first read has ended counts, for no swap came.
 void count_first_read(Session& s);
@@ -129,5 +141,9 @@ void count_first_read(Session& s);
 /// be empty. `current`, where not null, is current on this thread.
 void cast_parts(Session& s, std::vector<FramePart> parts, const NativeContext* current, FrameKey window,
                 long number, FrameEnd end);
+/// A key or a signal asks for what stands there, be it the second time; else each frame is cast once.
+bool is_asked_for(Session& s, const StandingPicture& picture);
+/// Casts what stands, the last first, until nothing more is wanted. Whether anything came of it.
+bool cast_standing(Session& s, const NativeContext* current, FrameEnd end);
 
 } // namespace glcast::preload

@@ -14,21 +14,27 @@ namespace glcast::preload {
 /// A sibling that has drawn does not outlive its frame: a driver may let an object that has lost its name
 /// meanwhile point at a context that is gone (Mesa's sampler views). One that has not is kept for the next
 /// frame, if it holds nothing of the program's.
+///
+/// At rest, on a thread of ours, nothing of the program's is current, and nothing is said to an X server: they
+/// were made before, and are put away by the program's thread when it calls GL again (session_rest.cpp).
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
-    explicit SiblingScope(const NativeContext& first)
-        : system(*first.system), program(first.system->current()) {
+    SiblingScope(const NativeContext& first, bool is_at_rest)
+        : system(*first.system), at_rest(is_at_rest),
+          program(at_rest ? Binding{} : first.system->current()) {
         if (!program.context) program.display = first.display;
         if (program.context && !system.can_return_to(program))
             throw std::runtime_error("the program has destroyed its drawable");
     }
     ~SiblingScope() {
-        if (!system.bind(program)) say_once("the program's context could not be made current again");
+        const bool back = at_rest ? system.bind_alone(program.display, nullptr) : system.bind(program);
+        if (!back) say_once("the program's context could not be made current again");
         if (are_kept) return;
-        for (NativeContext* context : had)
-            if (void* sibling = context->sibling.exchange(nullptr))
-                context->system->destroy(context->display, sibling);
+        if (at_rest)
+            for (NativeContext* context : had) context->sibling_is_spent = true;
+        else
+            destroy();
     }
     SiblingScope(const SiblingScope&) = delete;
     SiblingScope& operator=(const SiblingScope&) = delete;
@@ -39,6 +45,7 @@ class SiblingScope {
         NativeContext& context = *part.context;
         if (entered == &context) return;
         entered = nullptr;
+        if (at_rest) return enter_alone(context);
         Binding binding{context.display, program.draw, program.read, sibling_of(context)};
         const bool same_display = program.context && program.display == context.display;
         bool bound = same_display && context.system->bind(binding);
@@ -55,6 +62,19 @@ class SiblingScope {
     void keep() { are_kept = true; }
 
   private:
+    void enter_alone(NativeContext& context) {
+        if (!context.sibling || !context.system->bind_alone(context.display, context.sibling))
+            throw std::runtime_error("no second context is there for a program at rest");
+        had.insert(&context);
+        entered = &context;
+    }
+
+    void destroy() {
+        for (NativeContext* context : had)
+            if (void* sibling = context->sibling.exchange(nullptr))
+                context->system->destroy(context->display, sibling);
+    }
+
     void* sibling_of(NativeContext& context) {
         if (!context.sibling) context.sibling = context.make_sibling();
         if (!context.sibling) throw std::runtime_error("no second context can be made beside the program's");
@@ -63,6 +83,7 @@ class SiblingScope {
     }
 
     const WindowSystem& system;
+    const bool at_rest;
     Binding program;
     std::set<NativeContext*> had;
     bool are_kept = false;

@@ -2,7 +2,7 @@
 //
 // Descriptor 2 is the program's. It may be closed, or be its data file or its X connection by now, so what it
 // was is remembered when the library is loaded, and what it is is asked before each line
-// (docs/status-lines.md has the table).
+// (docs/reference/status-lines.md has the table).
 #pragma once
 #include <string_view>
 

@@ -1,7 +1,7 @@
 // What the shim tells people, and what it tells glcast-run.
 //
 // People read lines on stderr, each beginning with "glcast: ". glcast-run reads the events in GLCAST_STATUS
-// (docs/status-lines.md). All of them are written here; control characters come out as \x1b. None waits, raises a signal,
+// (docs/reference/status-lines.md). All of them are written here; control characters come out as \x1b. None waits, raises a signal,
 // or gets into anything of the program's; what cannot be said is counted and told.
 #pragma once
 #include <string>

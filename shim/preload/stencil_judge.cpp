@@ -4,7 +4,7 @@
 #include <map>
 
 #include "capture/engine_target.h"
-#include "shim/preload/ignored_calls.h"
+#include "capture/gl/call_classes.h"
 #include "shim/preload/scene_table.h"
 #include "shim/preload/scene_thumbnail.h"
 
@@ -17,40 +17,50 @@ constexpr std::size_t most_kinds = 16; ///< of marks that are looked at
 /// Of what the draws in question are counted.
 enum class Counted { all, before, behind };
 
-constinit thread_local const GlTable* inner_table = nullptr;
+using G = GlTable;
 
-bool is_judges(GLenum cap) {
-    switch (cap) {
-    case GL_DEPTH_TEST:
-    case GL_CULL_FACE:
-    case GL_POLYGON_OFFSET_FILL:
-    case GL_BLEND:
-    case GL_LIGHTING:
-        return true;
-    default:
-        return false;
-    }
-}
-void APIENTRY enable(GLenum cap) {
-    if (!is_judges(cap)) inner_table->Enable(cap);
-}
-void APIENTRY disable(GLenum cap) {
-    if (!is_judges(cap)) inner_table->Disable(cap);
-}
-void APIENTRY push_attrib(GLbitfield mask) {
-    inner_table->PushAttrib(mask & ~GLbitfield(GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT));
-}
 /// The program's drawing without its depth test, culling and offsets, which are the judge's.
-GlTable judges_table(const GlTable& picture) {
-    using G = GlTable;
-    inner_table = &picture;
-    GlTable table = picture;
-    ignore<&G::DepthFunc, &G::DepthMask, &G::DepthRange, &G::CullFace, &G::FrontFace, &G::PolygonMode,
-           &G::PolygonOffset, &G::BeginQuery, &G::EndQuery>(table);
-    table.Enable = enable;
-    table.Disable = disable;
-    table.PushAttrib = push_attrib;
-    return table;
+class JudgeTable {
+  public:
+    explicit JudgeTable(const GlTable& picture);
+    ~JudgeTable() { table_owner<JudgeTable> = nullptr; }
+    JudgeTable(const JudgeTable&) = delete;
+    JudgeTable& operator=(const JudgeTable&) = delete;
+
+    const GlTable& table() const { return judging; }
+    const GlTable& below() const { return inner; }
+    bool owns(GLenum cap) const {
+        switch (cap) {
+        case GL_DEPTH_TEST:
+        case GL_CULL_FACE:
+        case GL_POLYGON_OFFSET_FILL:
+        case GL_BLEND:
+        case GL_LIGHTING:
+            return true;
+        default:
+            return false;
+        }
+    }
+
+  private:
+    const GlTable& inner;
+    GlTable judging;
+};
+
+constexpr OverrideRule rules[] = {
+    {always, drop(calls::depth_ranges + calls::offsets + only<&G::DepthFunc, &G::DepthMask>),
+     "the judge asks what lies before the marks"},
+    {always, drop(only<&G::CullFace, &G::FrontFace, &G::PolygonMode>), "all of every face"},
+    {always, drop(calls::queries), "the judge counts pixels"},
+    {always, handle<SwitchNotOwned<JudgeTable>>(only<&G::Enable, &G::Disable>),
+     "depth, culling, offset, blending and lighting are the judge's"},
+    {always, handle<SaveWithout<JudgeTable, GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT>>(only<&G::PushAttrib>),
+     "the judge's state stays as it is"},
+};
+
+JudgeTable::JudgeTable(const GlTable& picture) : inner(picture), judging(picture) {
+    table_owner<JudgeTable> = this;
+    override_calls(judging, inner, rules);
 }
 
 /// Lets through marks and the draws in question, and counts these.
@@ -139,9 +149,10 @@ std::vector<long> count(const GlTable& gl, const Target& target, const record::F
                         const Group& group, const std::vector<std::size_t>& marks,
                         const std::vector<std::size_t>& draws, Counted what) {
     prepare(gl, target, group);
-    const GlTable picture = picture_table(gl), table = judges_table(picture);
+    const PictureTable picture(gl);
+    const JudgeTable judging(picture.table());
     std::vector<long> counts;
-    Gate gate(table, gl, group.depth_reversed, marks, draws, what);
+    Gate gate(judging.table(), gl, group.depth_reversed, marks, draws, what);
     record::replay(frame, gated_table(gate));
     for (std::size_t i = 0; i < draws.size(); ++i) counts.push_back(gate.count(i));
     target.bind();
@@ -154,6 +165,11 @@ bool can_count(const GlTable& gl) {
 }
 
 } // namespace
+
+constinit const OverrideRules judge_rules = {"A small picture that is counted",
+                                             "Whether a draw lies before what marked the stencil buffer",
+                                             rules,
+                                             {}};
 
 void judge(const GlTable& real, const record::Frame& frame, Scene& scene, int group, StencilPlan& plan) {
     const GlTable gl = with_framebuffer_calls(real);

@@ -1,5 +1,6 @@
 // Asks the program's own view how draws lie to what marked the stencil buffer (stencil_plan.h).
 #pragma once
+#include "capture/gl/override_table.h"
 #include "shim/preload/stencil_plan.h"
 #include "shim/record/record.h"
 
@@ -9,5 +10,7 @@ namespace glcast::preload {
 /// current context, as the program looks at them, and counts fragments. Without occlusion queries every
 /// question stays open. A frame without questions draws nothing.
 void judge(const GlTable& gl, const record::Frame& frame, Scene& scene, int group, StencilPlan& plan);
+
+extern const OverrideRules judge_rules;
 
 } // namespace glcast::preload

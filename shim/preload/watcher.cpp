@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "shim/preload/own_thread.h"
 #include "shim/preload/status.h"
@@ -25,53 +27,81 @@ class Watcher {
         : options(of), display(std::move(display_name)), watched(std::move(what)) {}
 
     void run() {
-        std::string why;
-        connection = XConnection::open(display, why);
-        if (connection && !options.key.empty()) why = connection->watch_key(options.key_symbol);
-        if (!why.empty()) return report(why);
-        while (!watched.over() && connection->alive()) {
-            pollfd events = {connection->file_descriptor(), POLLIN, 0};
-            poll(&events, 1, look_ms);
-            for (int presses = connection->key_presses(); presses > 0; --presses) watched.fire();
+        if (!options.key.empty() || options.nudge) connect();
+        while (!watched.over()) {
+            wait_a_moment();
             watched.look_for_signals();
-            if (options.nudge) nudge_if_still();
+            watched.cast_at_rest();
+            if (options.nudge && is_connected()) nudge_if_still();
         }
-        if (wider && connection->alive()) connection->widen_windows(-1);
+        if (is_connected()) undo_nudge();
     }
 
   private:
+    void connect() {
+        std::string why;
+        connection = XConnection::open(display, why);
+        if (connection && !options.key.empty()) why = connection->watch_key(options.key_symbol);
+        if (!why.empty()) report(why);
+    }
+
+    bool is_connected() const { return connection && connection->alive(); }
+
+    void wait_a_moment() {
+        pollfd events = {is_connected() ? connection->file_descriptor() : -1, POLLIN, 0};
+        poll(&events, 1, look_ms);
+        if (!is_connected()) return;
+        for (int presses = connection->key_presses(); presses > 0; --presses) watched.fire();
+    }
+
     void report(const std::string& why) {
         const std::string line = "no key and no nudge: " + why;
         say("%s", line.c_str());
         if (!options.key.empty()) tell("failed", line);
     }
 
-    /// First an exposure; if nothing is drawn, a pixel wider, and back again whatever happens.
+    /// First an exposure; if nothing is drawn, a pixel wider, then away from the screen, and back again whatever
+    /// happens.
     void nudge_if_still() {
         const long now_ended = watched.frames();
         const auto now = Clock::now();
         if (now_ended != ended || !watched.waiting()) {
             ended = now_ended;
             since = now;
-            next_exposes = true;
+            next = Nudge::expose;
             if (!watched.waiting()) nudges = 0;
         }
-        if (wider && now - last_nudge >= wait_for_effect) {
-            connection->widen_windows(-1);
-            wider = false;
-        }
+        if (now - last_nudge >= wait_for_effect) undo_nudge();
         const bool still = now - since >= idle_before_nudge && now - last_nudge >= wait_for_effect;
-        if (!watched.waiting() || !still || wider || nudges >= most_nudges) return;
+        if (!watched.waiting() || !still || nudges >= most_nudges) return;
         last_nudge = now;
         ++nudges;
-        if (next_exposes) {
+        nudge();
+    }
+
+    void nudge() {
+        switch (next) {
+        case Nudge::expose:
             connection->expose_windows();
-        } else {
+            next = Nudge::widen;
+            break;
+        case Nudge::widen:
             connection->widen_windows(1);
             wider = true;
+            next = Nudge::map;
+            break;
+        case Nudge::map:
+            unmapped = connection->unmap_windows();
+            next = Nudge::expose;
         }
-        next_exposes = !next_exposes;
     }
+
+    void undo_nudge() {
+        if (std::exchange(wider, false)) connection->widen_windows(-1);
+        connection->map_windows(std::exchange(unmapped, {}));
+    }
+
+    enum class Nudge { expose, widen, map };
 
     const Options& options;
     const std::string display;
@@ -80,7 +110,9 @@ class Watcher {
     long ended = -1;
     Clock::time_point since = Clock::now(), last_nudge = since;
     int nudges = 0;
-    bool next_exposes = true, wider = false;
+    Nudge next = Nudge::expose;
+    bool wider = false;
+    std::vector<std::uint32_t> unmapped;
 };
 
 void watch(Watcher& watcher) noexcept {

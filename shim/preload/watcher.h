@@ -1,5 +1,5 @@
-// A thread of our own that waits for the key, and nudges a program that does not draw. Only started when one of
-// these is asked for.
+// A thread of our own that waits for the key, the signal or the time, nudges a program that does not draw, and
+// casts what stands in its window. Only started when one of these is asked for.
 #pragma once
 #include <functional>
 #include <string>
@@ -15,6 +15,7 @@ struct Watched {
     std::function<long()> frames;  ///< that have ended so far
     std::function<void()> fire;    ///< the key was pressed
     std::function<void()> look_for_signals;
+    std::function<void()> cast_at_rest; ///< if a frame is wanted and none comes
 };
 
 /// `display` as in $DISPLAY. Nothing to stop: it ends with the process.

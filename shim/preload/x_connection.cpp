@@ -58,7 +58,9 @@ constexpr int smallest_window = 16; // narrower ones are helpers, not views
     X(xcb_intern_atom)                                                                                       \
     X(xcb_intern_atom_reply)                                                                                 \
     X(xcb_send_event)                                                                                        \
-    X(xcb_configure_window)
+    X(xcb_configure_window)                                                                                  \
+    X(xcb_unmap_window)                                                                                      \
+    X(xcb_map_window)
 
 struct XConnection::Calls {
 #define GLCAST_MEMBER(NAME) decltype(&::NAME) NAME = nullptr;
@@ -334,6 +336,23 @@ void XConnection::widen_windows(int pixels) {
         x.xcb_configure_window(as_xcb(connection), window.name, XCB_CONFIG_WINDOW_WIDTH, &width);
     }
     x.xcb_flush(as_xcb(connection));
+}
+
+std::vector<std::uint32_t> XConnection::unmap_windows() {
+    const Calls& x = *calls();
+    std::vector<std::uint32_t> names;
+    for (const Windows::Window& window : find_windows().top) {
+        x.xcb_unmap_window(as_xcb(connection), window.name);
+        names.push_back(window.name);
+    }
+    x.xcb_flush(as_xcb(connection));
+    return names;
+}
+
+void XConnection::map_windows(const std::vector<std::uint32_t>& windows) {
+    const Calls& x = *calls();
+    for (const std::uint32_t window : windows) x.xcb_map_window(as_xcb(connection), window);
+    if (!windows.empty()) x.xcb_flush(as_xcb(connection));
 }
 
 } // namespace glcast::preload

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace glcast::preload {
 
@@ -34,6 +35,9 @@ class XConnection {
     int expose_windows();
     /// Make its top-level windows wider by `pixels`, or narrower.
     void widen_windows(int pixels);
+    /// Take them off the screen. Returns those that went, which are to be mapped again.
+    std::vector<std::uint32_t> unmap_windows();
+    void map_windows(const std::vector<std::uint32_t>& windows);
 
   private:
     struct Calls;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Say for each entry point of GL 1.0 to 2.1 and of the extensions that fixed-function programs use what becomes of it.
 
-Usage: gen_entry_points.py GL_XML PAGE           writes the page (docs/entry-points.md)
+Usage: gen_entry_points.py GL_XML PAGE           writes the page (docs/reference/entry-points.md)
        gen_entry_points.py GL_XML PAGE --check   exit status 1 when the page is stale
 Exit status 1, too, when an entry point in scope is neither recorded nor passed through for a reason (REASONS in rules.py).
 """

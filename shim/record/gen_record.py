@@ -13,6 +13,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent.parent / "capture" / "gl")]
+import call_classes
 import rules
 from gen_gl_table import read_commands
 
@@ -23,7 +24,8 @@ def matcher(words):
 
 
 CLASSES = [(kind, matcher(words)) for kind, words in rules.CLASSES]
-not_compiled, draws = matcher(rules.NOT_COMPILED), matcher(rules.DRAWS)
+not_compiled = matcher(rules.NOT_COMPILED)
+draws = matcher(f"{call_classes.words_of(*rules.DRAW_CLASSES.split())} {rules.OTHER_DRAWS}")
 hand_played, always_shadowed = matcher(rules.HAND_PLAYED), matcher(rules.ALWAYS_SHADOWED)
 SIZES = [(re.compile(pattern), size) for pattern, size in rules.SIZES]
 

@@ -20,12 +20,12 @@ struct Prepared {
 
     std::unordered_map<const Stream*, Runs> runs; ///< parts of the streams, and of `made` between them
     Stream made;                                  ///< draw packets
-    std::unordered_map<const std::byte*, std::unique_ptr<const DrawShape>>
-        shapes; ///< by packet, as they are asked for
+    std::unordered_map<const std::byte*, std::unique_ptr<const DrawParts>>
+        parts; ///< by packet, as they are asked for
 };
 
 /// What a draw packet draws.
-DrawShape find_shape(const Frame& frame, const Packet& packet);
+DrawParts find_parts(const Frame& frame, const Packet& packet);
 
 /// The parts of a draw packet.
 struct DrawReader {
@@ -48,7 +48,7 @@ struct DrawReader {
     const std::byte *arrays, *segments, *data;
 };
 
-/// While it lives, shape_of_draw() tells of this packet.
+/// While it lives, parts_of_draw() tells of this packet.
 class ShownDraw {
   public:
     ShownDraw(const Frame& frame, const Packet& packet);

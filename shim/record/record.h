@@ -86,7 +86,7 @@ void delete_copies(const Frame& frame, const GlTable& gl);
 void let_go(const Frame& frame, const GlTable& gl);
 
 /// A draw as it is played, with glDrawArrays or glDrawElements.
-struct DrawShape {
+struct DrawParts {
     GLenum mode;
     bool is_known; ///< where its vertices lie, whose w is 1
     bool is_whole; ///< no vertex is left over that makes no primitive
@@ -106,9 +106,9 @@ bool is_prepared(const Frame& frame);
 
 /// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn.
 /// Null: nothing is known of it.
-const DrawShape* shape_of_draw();
+const DrawParts* parts_of_draw();
 /// x, y and z of the vertices of a part of it, in the program's own coordinates.
-void read_positions(const DrawShape::Part& part, std::vector<float>& xyz);
+void read_positions(const DrawParts::Part& part, std::vector<float>& xyz);
 
 /// Play prologue, frame and expanded lists into `gl`, in a context that shares objects with the program's.
 /// Calls that only have side effects on shared objects (uploads, deletes) and reads are not played. Matrix

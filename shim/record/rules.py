@@ -1,7 +1,7 @@
 """What gl.xml does not say about entry points: how each is recorded.
 
 Names are regular expressions without the gl prefix, matched in full against the core name (glFooARB follows glFoo where
-the registry calls it an alias). The first row that matches decides. docs/adding-a-gl-call.md explains the classes:
+the registry calls it an alias). The first row that matches decides. docs/design/adding-a-gl-call.md explains the classes:
 
   plain     recorded with its arguments and what they point at, and played
   custom    record function by hand (shim/record/*.cpp, namespace custom)
@@ -76,7 +76,7 @@ CLASSES = [
     ("once", r"GetError GetString"),
 ]
 
-# Why calls are passed through: the words of docs/entry-points.md. The first row that matches; every call of the classes
+# Why calls are passed through: the words of docs/reference/entry-points.md. The first row that matches; every call of the classes
 # once, packs, arrays, ignored, bound_buffer and named_buffer that the page lists needs one.
 REASONS = [
     ("asks, and changes nothing", r"Get[A-Z].* Is[A-Z].* Check[A-Z].* Are[A-Z].* Test[A-Z].*"),
@@ -117,9 +117,10 @@ REASONS = [
 # Plain calls that a display list does not hold: they are executed while it is compiled.
 NOT_COMPILED = r"BindFramebuffer(EXT)? GenerateMipmap"
 
-# Calls that make fragments, or only mean something between glBegin and glEnd.
-DRAWS = r"""Begin End ArrayElement Rect[dfis] Vertex[234].* VertexAttrib[1-4P].* VertexP.* Vertex[234]hv?NV Eval(Coord|Mesh|Point).* Bitmap
-    DrawPixels PrimitiveRestartNV"""
+# Calls that make fragments, or only mean something between glBegin and glEnd: classes of capture/gl/call_classes.py, and
+# what is in none of them. Draws from arrays are packets of their own.
+DRAW_CLASSES = "mesh_draws rectangles begin_end vertices vertices_with_w attributes"
+OTHER_DRAWS = r"Bitmap DrawPixels PrimitiveRestartNV"
 
 # Played by hand (namespace custom, play_NAME): they change what later packets depend on, or touch shared objects.
 HAND_PLAYED = r"""CallList CallLists ListBase BindTexture TexParameter[fi]v? GenerateMipmap PushAttrib

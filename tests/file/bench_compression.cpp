@@ -1,5 +1,5 @@
 // Processor time and size of the compressions that OpenEXR offers, on the six views of a sphere: the table in
-// docs/capture-format.md. Usage: bench_compression [N]
+// docs/reference/capture-format.md. Usage: bench_compression [N]
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

@@ -117,7 +117,7 @@ TEST_F(HostileCommand, WhatIsReplacedKeepsItsRights) {
     EXPECT_EQ(int(std::filesystem::status(folder / "new.glb").permissions()), 0640);
 }
 
-TEST_F(HostileCommand, ALinkIsReplacedAndItsTargetLeftAlone) { // as docs/files.md says
+TEST_F(HostileCommand, ALinkIsReplacedAndItsTargetLeftAlone) { // as docs/reference/files.md says
     write_text(folder / "target.glb", "mine");
     std::filesystem::create_symlink("target.glb", folder / "link.glb");
     std::filesystem::create_symlink("nowhere.glb", folder / "dangling.glb");

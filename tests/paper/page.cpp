@@ -90,7 +90,7 @@ constexpr const char* about_gap =
 // Of the page as it was at commit 8eba374.
 constexpr const char* about_fit =
     "The paper's error looks from the original to the level alone. The fit did so too until its vertices "
-    "ran away where no sample held them (docs/method.md, \"Levels of detail\");\nnow it judges both ways. At "
+    "ran away where no sample held them (docs/design/method.md, \"Levels of detail\");\nnow it judges both ways. At "
     "100 edges that costs the paper's error up to a fifth (cubes 160 at 250 edges: 29 %), and gains the "
     "other way: the original had 0.0568 "
     "(0.0809), contour 160 0.0406 (0.0537),\ncubes 160 0.0588 (0.0568). Tried without gain: less weight for "
@@ -101,20 +101,20 @@ constexpr const char* figures =
     "## Figures\n\n"
     "**1.** A surface without thickness, the teapot's spout from above: original, cubes, contour, n = 160. "
     "The "
-    "paper lost its rim.\n\n![figure 1](images/paper-figure-1.png)\n\n"
+    "paper lost its rim.\n\n![figure 1](../images/paper-figure-1.png)\n\n"
     "**2.** Twopot, one teapot inside another: original, cast (n = 160), and both cut open. No colour of the "
-    "inner pot on the outer one.\n\n![figure 2](images/paper-figure-2.png)\n\n"
+    "inner pot on the outer one.\n\n![figure 2](../images/paper-figure-2.png)\n\n"
     "**3.** Spheres that run through one another: original, cast (n = 160), and both cut open.\n\n"
-    "![figure 3](images/paper-figure-3.png)\n\n"
+    "![figure 3](../images/paper-figure-3.png)\n\n"
     "**4.** Normals drawn wrong (the knob's point inwards, the bead's are half as long): original, cast with "
-    "normals as drawn, cast with `--normals geometric`.\n\n![figure 4](images/paper-figure-4.png)\n\n"
+    "normals as drawn, cast with `--normals geometric`.\n\n![figure 4](../images/paper-figure-4.png)\n\n"
     "**5.** n = 20, 40, 160 and the original; spheres and twopot, each by cubes and by contour, faceted to "
-    "show the triangles.\n\n![figure 5](images/paper-figure-5.png)\n";
+    "show the triangles.\n\n![figure 5](../images/paper-figure-5.png)\n";
 
 void write_page(const std::filesystem::path& docs) {
     std::filesystem::create_directories(docs / "images");
     const auto start = std::chrono::steady_clock::now();
-    std::ofstream out(docs / "paper.md");
+    std::ofstream out(docs / "measured/paper.md");
     out << introduction;
     out << "Machine: " << field_of("/proc/cpuinfo", "model name") << ", "
         << std::thread::hardware_concurrency() << " cores, load " << number(load(), "%.1f")

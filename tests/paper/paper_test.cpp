@@ -1,4 +1,4 @@
-// The paper's tables: what holds of them is asserted; docs/results.md has all figures.
+// The paper's tables: what holds of them is asserted; docs/measured/results.md has all figures.
 #include <gtest/gtest.h>
 
 #include "tests/paper/originals.h"
@@ -61,7 +61,7 @@ TEST(PaperTableOne, FineTeapotFitted) {
     print(table);
     expect_counts_kept(table);
     // Targets 1.15, 1, 1, 1, not met: some of the lid's slit, which the cast closes, can be
-    // seen (docs/results.md). These bounds only keep what there is.
+    // seen (docs/measured/results.md). These bounds only keep what there is.
     expect_ratios(table.row("contour 160"), table.row("original"), {1.6, 1.2, 1.1, 1.15});
     for (const char* n : {"160", "40"})
         expect_ratios(table.row(std::string("contour ") + n), table.row(std::string("cubes ") + n),

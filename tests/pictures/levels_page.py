@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/levels.md, and its pictures, of what picture-table measured.
+"""Writes docs/measured/levels.md, and its pictures, of what picture-table measured.
 
 Usage: levels_page.py PROGRAMS.txt FOLDER DOCS KEY SIZES_KEY
 
@@ -23,17 +23,17 @@ WANTED_DB = 35
 HEAD = """# What levels of detail look like
 
 Written by `tests/pictures/make-table BUILD OUT`, all numbers by the same binaries. Each program was cast at n = {n} and the same frame drawn
-from {views} further sides at n = {fine} (`GLCAST_REFERENCE_VIEWS`, `GLCAST_REFERENCE_N`, [capture-format.md](capture-format.md)): no pixel of them
-took part in making the cast. Each level is drawn at the same {fine} x {fine} places, both are lit by one function (ambient .3, .45 from the camera,
-.25 from its upper left, with the normals that were drawn) on light grey, and both become 8-bit pictures of {width} x {width} pixels in the same two ways:
+from {views} further sides at n = {fine} (`GLCAST_REFERENCE_VIEWS`, `GLCAST_REFERENCE_N`, [capture-format.md](../reference/capture-format.md)): no pixel of them
+took part in making the cast. Each level is drawn at the same {fine} x {fine} places. Both are lit by one function (ambient .3, .45 from the camera,
+.25 from its upper left, with the normals that were drawn) on light grey. Both become 8-bit pictures of {width} x {width} pixels in the same two ways:
 
 - *dB*, *SSIM*: antialiased. A pixel is the mean of its {samples} x {samples} samples, after light, as viewers show it.
 - *one sample*: a pixel is one of these samples. Whole pixels flip where the outline moves by a small part of one, and that is most of this error.
 
 *dB* and *one sample* are PSNR over all pixels of all views, background too. *inside*: PSNR over the samples alone that both original and level
 cover, not averaged: colour and light without the outline. *SSIM*: Wang et al. 2004, mean of the views. *Error*: the larger of the mean distances
-there and back (`glcast compare`), in samples of the cast; against the program's own mesh where that is known (points that nobody can see left out), else
-against the full surface of the cast. In bold: {wanted} dB and more.
+there and back (`glcast compare`), in samples of the cast. It is taken against the program's own mesh where that is known, without points that nobody
+can see; else against the full surface of the cast. In bold: {wanted} dB and more.
 
 The peers simplify the program's own mesh, where it is known, and the cast's full surface, each to the same count:
 
@@ -50,8 +50,8 @@ degrees too.
 `glcast mesh` makes levels for four sizes on the screen, as the paper argues (n = 2 w): level k is for an object n / 2^(k+1) pixels wide, k = 0 to 3.
 99.9 % of its surface is at most an eighth of such a pixel from the full surface, both ways: 2^k / 4 samples. The certificate says what was measured.
 The mean is at most a 43rd of a pixel, by estimate; the smooth surface of a sphere would else be far off everywhere, but nowhere very far. It is less
-in pictures below 32 pixels, where more of the pixels lie on outlines, and a 200th at n / 2 pixels and more, where the full surface can be matched;
-more below 64 pixels, where that is coarse itself.
+in pictures below 32 pixels, where more of the pixels lie on outlines. It is a 200th at n / 2 pixels and more, where the full surface can be matched,
+and more below 64 pixels, where that is coarse itself.
 `--pixels P` makes the level for P pixels by the same rule.
 
 The count is looked for in one run of collapses (`tools/pipeline/sized_levels.h`). Errors of bare levels at some eight counts are estimated from 10,000
@@ -179,7 +179,7 @@ def picture(folder, name, docs):
     target = docs / "images" / f"levels-{name}.jpg"
     subprocess.run(["convert", *parts, "-resize", "300x300", "+append", "-quality", "88", "-strip", target], check=True)
     shown = ["original", "vertex colours", "textured"][: len(parts)]
-    return f"![{name}: {', '.join(shown)} at 500 triangles](images/{target.name})\n"
+    return f"![{name}: {', '.join(shown)} at 500 triangles](../images/{target.name})\n"
 
 
 def npm_version():
@@ -205,7 +205,7 @@ def main():
     head = HEAD.format(own_sizes=own_sizes, n=first["n"], views=first["views"], wanted=WANTED_DB, samples=first["samples"], width=first["width"],
                        fine=first["samples"] * first["width"], meshoptimizer=npm_version())
     notes = Path(__file__).with_name("levels_notes.md")
-    (docs / "levels.md").write_text(f"{head}{summary(measured)}\n\n## Beside other simplifiers\n\ndB, and SSIM in brackets.\n\n{beside_peers(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
+    (docs / "measured/levels.md").write_text(f"{head}{summary(measured)}\n\n## Beside other simplifiers\n\ndB, and SSIM in brackets.\n\n{beside_peers(measured)}\n\n{notes.read_text()}\n" + "\n".join(sections))
 
 
 main()

@@ -1,4 +1,4 @@
-// What the default levels look like at their own sizes: rows of docs/levels.md. See make-table.
+// What the default levels look like at their own sizes: rows of docs/measured/levels.md. See make-table.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>

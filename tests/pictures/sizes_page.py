@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The part of docs/levels.md on the default levels at their own sizes, of what picture-sizes measured.
+"""The part of docs/measured/levels.md on the default levels at their own sizes, of what picture-sizes measured.
 
 Usage: sizes_page.py PROGRAMS.txt FOLDER LEVELS.md KEY
 

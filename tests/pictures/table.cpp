@@ -1,4 +1,4 @@
-// Rows of docs/levels.md: how far the levels of a cast are from what was drawn, in space and in pictures. See
+// Rows of docs/measured/levels.md: how far the levels of a cast are from what was drawn, in space and in pictures. See
 // make-table.
 #include <CLI/CLI.hpp>
 

@@ -79,7 +79,7 @@ TEST_P(State, is_the_same_before_and_after_a_capture) {
 }
 
 // Mesa never gives a deleted name again. Peeling needs a texture, a shader and a program that live with the program's own
-// objects, and a texture named 0 that has an image needs one beside it (docs/limits.md). Without these no name is used up.
+// objects, and a texture named 0 that has an image needs one beside it (docs/guide/limits.md). Without these no name is used up.
 TEST_P(State, hands_out_the_same_names_after_a_capture) {
     const StateRun plain = run_state_program(GetParam(), false, "auto", {"empty_0"}),
                    outer = run_state_program(GetParam(), true, "1", {"empty_0"});

@@ -1,13 +1,11 @@
 // When frames are cast: every so many-th, so many in all, at a key, at a signal; and what the files are called.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <set>
-#include <thread>
 
 #include "capture/output_name.h"
+#include "tests/preload/key_presser.h"
 #include "tests/preload/program_run.h"
 
 namespace glcast::test {
@@ -66,26 +64,6 @@ TEST(Several, are_cast_and_the_program_sees_nothing) {
         EXPECT_EQ(plain.state, cast.state);
     }
 }
-
-/// Presses F12 under our X server until it is told to stop.
-class KeyPresser {
-  public:
-    KeyPresser() : thread([this] { press(); }) {}
-    ~KeyPresser() {
-        stop = true;
-        thread.join();
-    }
-
-  private:
-    void press() {
-        while (!stop) {
-            run_program({"xdotool", "key", "--delay", "30", "F12"}, {}, false);
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-    }
-    std::atomic<bool> stop{false};
-    std::thread thread;
-};
 
 TEST(Key, asks_for_a_frame_and_reaches_the_program) {
     const TemporaryFolder folder;

@@ -18,7 +18,7 @@ template <class T> void put(std::string& bytes, std::size_t at, T value) {
     for (std::size_t k = 0; k < sizeof value; ++k) bytes.at(at + k) = char(std::uint8_t(value >> 8 * k));
 }
 
-/// A stream taken apart as docs/progressive-meshes.md says: header, then chunks, unpacked.
+/// A stream taken apart as docs/reference/progressive-meshes.md says: header, then chunks, unpacked.
 struct Apart {
     std::string header; ///< without its checksum
     struct Chunk {

@@ -1,4 +1,5 @@
 // glcast mesh: capture -> surface -> levels -> file.
+#include <algorithm>
 #include <memory>
 #include <sys/resource.h>
 
@@ -131,11 +132,20 @@ void say_figures(const Options& options, const MeshedCapture& made) {
         say("wrote " + file.string() + " (" + std::to_string(std::filesystem::file_size(file)) + " bytes)");
 }
 
+/// What would complete them.
+std::string advice_on_layers(const CaptureInfo& info) {
+    const int most = std::ranges::max(info.layer_count);
+    if (info.layers == Layers::outer) return "capture again with --layers auto";
+    if (most >= max_layers) return "a ray hits more than " + std::to_string(most) + " times";
+    return "where a ray hits more than " + std::to_string(most) + " times, capture again with --layers " +
+           std::to_string(std::min(2 * most, max_layers));
+}
+
 void say_made(const Options& options, const MeshedCapture& made) {
     if (options.verbose) say_figures(options, made);
     if (made.surface.exterior == ExteriorRule::axes && options.exterior == "layers")
         say("the capture's depth layers are not complete (" + std::string(layers_name(made.info.layers)) +
-            "): cavities that no axis looks into are filled; capture again with --layers auto");
+            "): cavities that no axis looks into are filled; " + advice_on_layers(made.info));
     if (const std::string advice = normals_advice(made.levels[0].error.disagreeing_normals_share);
         !advice.empty())
         say(advice);

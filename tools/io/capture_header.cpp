@@ -170,6 +170,10 @@ CaptureInfo info_of(const Attributes& header) {
     info.glcast_version = exr::string_value(header, "glcast.version");
     info.not_understood = counts_of(exr::strings_value(header, "glcast.notUnderstood"));
     read_layers(header, info);
+    if (header.contains("glcast.backs")) {
+        info.reversed_backs = exr::string_value(header, "glcast.backs") == backs_reversed;
+        if (!info.reversed_backs) damaged("glcast.backs");
+    }
     info.both_sides = exr::int_value(header, "glcast.format") >= format_of_both_sides;
     return info;
 }

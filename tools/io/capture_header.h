@@ -1,4 +1,4 @@
-// What the header of a capture says. It is parsed here and nowhere else (docs/capture-format.md, "Reading").
+// What the header of a capture says. It is parsed here and nowhere else (docs/reference/capture-format.md, "Reading").
 #pragma once
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ struct CaptureHeader {
     std::uint64_t tables_at = 0; ///< where the offset tables begin
 };
 
-/// Every part must be ours (`glcast.format`), n x n, with the channels of docs/capture-format.md, and one of
+/// Every part must be ours (`glcast.format`), n x n, with the channels of docs/reference/capture-format.md, and one of
 /// the views of the header's layers. n is backed by as many bytes of the file as the best compression needs.
 /// Throws std::runtime_error: what is wrong, without the file's name.
 CaptureHeader read_capture_header(const InputFile& file);

@@ -88,7 +88,7 @@ void check_other_side(ViewImage& image) {
     }
 }
 
-/// The rules of docs/capture-format.md, and the counts of the header.
+/// The rules of docs/reference/capture-format.md, and the counts of the header.
 void check_pixels(const ViewImage& image, int covered, int with_normal) {
     const auto unit = [](float x) { return x >= 0 && x <= 1; }; // false for NaN
     const auto flag = [](float x) { return x == 0 || x == 1; };

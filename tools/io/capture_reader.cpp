@@ -126,6 +126,8 @@ void read_parts(const OpenCapture& capture, const PartSink& sink) {
                                                    at->image = read_part(capture.file, capture.header.info.n,
                                                                          capture.header.parts[part],
                                                                          capture.layout[part]);
+                                                   at->image.reversed_backs =
+                                                       capture.header.info.reversed_backs;
                                                    return at;
                                                }) &
             tbb::make_filter<Moving*, void>(tbb::filter_mode::serial_in_order, [&](Moving* at) {

@@ -19,7 +19,7 @@ Mesh read_mesh(const std::filesystem::path& path); ///< level 0
 /// The same, and of gears.glb the levels written with it to gears_LOD1.glb, ... beside it (level_set.h).
 std::vector<Level> read_all_levels(const std::filesystem::path& path);
 
-/// Of .glb alone (docs/files.md).
+/// Of .glb alone (docs/reference/files.md).
 enum class Compression {
     none,
     quantize, ///< KHR_mesh_quantization: positions of 16 bits, normals and tangents of 8

@@ -1,4 +1,4 @@
-// A run of vertex splits as bytes. Internal; docs/progressive-meshes.md has the grammar.
+// A run of vertex splits as bytes. Internal; docs/reference/progressive-meshes.md has the grammar.
 #pragma once
 #include <string_view>
 

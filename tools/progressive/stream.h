@@ -1,4 +1,4 @@
-// A progressive mesh in a file: docs/progressive-meshes.md has the grammar.
+// A progressive mesh in a file: docs/reference/progressive-meshes.md has the grammar.
 #pragma once
 #include <filesystem>
 #include <istream>

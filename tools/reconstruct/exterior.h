@@ -1,5 +1,5 @@
 // Which samples are filled when every surface along the lattice lines is known: those that the outside does
-// not reach, or that nobody outside can see (docs/method.md, "Exterior").
+// not reach, or that nobody outside can see (docs/design/method.md, "Exterior").
 #pragma once
 #include <span>
 

@@ -68,8 +68,8 @@ void HitBuilder::add(const ViewImage& image) {
         if (other.view == image.view)
             throw std::runtime_error("view " + name_of(image.view) + " is there twice");
     Layer layer{image.view, {}, {}, {}, {}, {}, {}};
-    const bool has_other = image.other_colour.size() == pixels && image.other_normal.size() == pixels;
-    both_sides |= has_other;
+    const bool drawn_twice = image.other_colour.size() == pixels && image.other_normal.size() == pixels;
+    both_sides |= drawn_twice || image.reversed_backs;
     for (std::size_t p = 0; p < pixels; ++p) {
         const float z = image.depth[p];
         if (!image.covered(p) || !(z >= 0 && z <= 1)) continue;
@@ -77,9 +77,13 @@ void HitBuilder::add(const ViewImage& image) {
         layer.depth.push_back(z * float(n) - 0.5f);
         layer.normal.push_back(pack_drawn_normal(image.normal[p]));
         layer.colour.push_back(pack_colour(glm::vec3(image.colour[p])));
-        if (!has_other) continue;
-        layer.other_normal.push_back(pack_drawn_normal(image.other_normal[p]));
-        layer.other_colour.push_back(pack_colour(glm::vec3(image.other_colour[p])));
+        if (drawn_twice) {
+            layer.other_normal.push_back(pack_drawn_normal(image.other_normal[p]));
+            layer.other_colour.push_back(pack_colour(glm::vec3(image.other_colour[p])));
+        } else if (image.reversed_backs) {
+            layer.other_normal.push_back(pack_drawn_normal({-glm::vec3(image.normal[p]), image.normal[p].w}));
+            layer.other_colour.push_back(layer.colour.back());
+        }
     }
     layers |= image.view.layer > 0;
     added.push_back(std::move(layer));

@@ -18,7 +18,7 @@ enum class SurfaceMethod {
     cubes,   ///< the paper's: a square per exposed face of each filled sub-cube, colour and normal per face
 };
 
-/// What counts as outside (docs/method.md).
+/// What counts as outside (docs/design/method.md).
 enum class ExteriorRule {
     layers, ///< what free space reaches and somebody can see; needs every surface along the axes
     axes,   ///< the paper's: what one of the six views sees past

@@ -178,7 +178,7 @@ void declare(CLI::App& app, Options& o) {
                                  "Cast frame N, counted from 1 (default: the first with solid geometry)")
                       ->envname("GLCAST_FRAME")
                       ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option("--after", o.after_seconds, "Cast the first frame after so many seconds")
+    app.add_option("--after", o.after_seconds, "Cast what stands in the window after so many seconds, or the next frame")
         ->envname("GLCAST_AFTER")
         ->check(seconds_from(0))
         ->excludes(frame);
@@ -188,7 +188,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--signal", o.signal, "Cast a frame each time this signal (USR1, ...) comes to PROGRAM")
         ->envname("GLCAST_SIGNAL")
         ->check(check_signal);
-    app.add_flag("--nudge", o.nudge, "Expose and resize the window by a pixel while no frame comes")
+    app.add_flag("--nudge", o.nudge, "Expose, resize and remap the window while no frame comes")
         ->envname("GLCAST_NUDGE");
     app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
         ->envname("GLCAST_EVERY")

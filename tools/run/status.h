@@ -1,4 +1,4 @@
-// What the shim tells (docs/status-lines.md), and the pipe it comes through.
+// What the shim tells (docs/reference/status-lines.md), and the pipe it comes through.
 #pragma once
 #include <filesystem>
 #include <map>

@@ -14,7 +14,7 @@ constexpr std::size_t triangles_per_tile = 12'000;
 constexpr std::size_t one_patch = 250'000;
 // Levels with fewer triangles are fitted (refit.cpp), which does better than keeping the volume. Quadrics are
 // added up there: memoryless ones forget a small part, and where one is as large as a few triangles it goes
-// (docs/method.md, "Levels").
+// (docs/design/method.md, "Levels").
 constexpr std::size_t fitted_below = 33'000;
 // With more triangles, each near the size of a sample, a surface hardly comes to pass through itself, and
 // every collapse would have to be asked about.

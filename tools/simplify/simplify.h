@@ -28,7 +28,7 @@ struct SimplifyOptions {
     bool refit = true;
     /// How far a surface may as well be off as have a colour (channel, 0..1) or a normal (component) that is
     /// off by 1: shares of the longest side of the mesh's box. 0: not looked at. A normal's, where it is not
-    /// given: what leaves the least error, with and without the fit (docs/method.md, "Levels").
+    /// given: what leaves the least error, with and without the fit (docs/design/method.md, "Levels").
     double colour_weight = 0.002;
     std::optional<double> normal_weight = {};
     /// What check_mesh() says of the mesh, where that is known already.

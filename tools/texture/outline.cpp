@@ -17,7 +17,7 @@
 namespace glcast {
 namespace {
 
-// Measured on the teapot and bouncingcow's cow at 2,000 triangles, n = 512: see docs/textures.md.
+// Measured on the teapot and bouncingcow's cow at 2,000 triangles, n = 512: see docs/design/textures.md.
 constexpr double near_enough = 0.05; // samples: mean distance of the surface
 constexpr std::size_t most_triangles = 30'000;
 

@@ -1,4 +1,4 @@
-// One self-contained .html: levels of detail to turn and compare, beside the captured views (docs/viewing.md).
+// One self-contained .html: levels of detail to turn and compare, beside the captured views (docs/guide/viewing.md).
 #pragma once
 #include <cstdint>
 #include <span>

@@ -201,9 +201,8 @@ static void draw_and_rest(void) {
     const char* out = getenv("GLCAST_OUT");
     draw();
     glXSwapBuffers(display, window);
-    for (int i = 0; out && access(out, F_OK) != 0 && i < 1000; ++i) {
-        usleep(10000);
-        glClear(GL_COLOR_BUFFER_BIT);
+    for (int i = 0; out && access(out, F_OK) != 0 && i < 100; ++i) {
+        usleep(120000);
         glXSwapBuffers(display, window);
     }
 }

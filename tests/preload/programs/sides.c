@@ -68,6 +68,15 @@ static void by_two_passes(void (*sheet)(void)) {
 static void in_one_colour(void (*sheet)(void)) {
     light(), glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, red), sheet();
 }
+static void lit_as_fronts(void (*sheet)(void)) {
+    light(), glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_FALSE);
+    glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, red), sheet();
+}
+/* Above, lit on both sides; below, lit as fronts. */
+static void two_of_each(void (*sheet)(void)) {
+    glPushMatrix(), glTranslatef(0, 1.5f, 0), in_one_colour(sheet);
+    glTranslatef(0, -3, 0), lit_as_fronts(sheet), glPopMatrix();
+}
 
 static const struct Way {
     const char* name;
@@ -83,7 +92,11 @@ static const struct Way {
     {"bent_sheet_by_two_passes", by_two_passes, bent_sheet},
     {"open_box", by_materials, open_box},
     {"open_box_by_two_passes", by_two_passes, open_box},
-    {"one_colour", in_one_colour, four_plates},
+    {"four_plates_in_one_colour", in_one_colour, four_plates},
+    {"bent_sheet_in_one_colour", in_one_colour, bent_sheet},
+    {"open_box_in_one_colour", in_one_colour, open_box},
+    {"plates_lit_as_fronts", lit_as_fronts, four_plates},
+    {"two_of_each", two_of_each, two_plates},
 };
 
 int main(int argc, char** argv) {
