@@ -13,6 +13,7 @@
 #include "shim/preload/eye_space.h"
 #include "shim/preload/hidden_faces.h"
 #include "shim/preload/scene_table.h"
+#include "shim/record/context.h"
 
 namespace glcast::preload {
 namespace {
@@ -95,7 +96,7 @@ class GroupFilter final : public DrawGate {
     /// Says, too, what is to be drawn of it, and how.
     bool may_be_found(const Draw& draw, GLenum mode) {
         const DrawPlace* place = place_of(draw, mode);
-        if (!place) return true;
+        if (!place || (sought.shows_all && draw.hides)) return true; // how it shows is set later
         as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) &&
                     points_are_the_same();
         const bool may_leave_out = sought.open || can_be_left_out();
@@ -220,7 +221,7 @@ long cutting_draws(const std::vector<Scene>& scenes, const Group& group) {
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
                   const GlTable& gl, const Sought& sought, DrawPlaces* places) {
     GroupFilter filter(gl, scene, group, wanted, sought, places);
-    if (sought.only_places && !record::is_prepared(frame)) return;
+    if (sought.only_places && !frame.prepared) return;
     record::replay(frame, gated_table(filter));
     filter.finish();
 }

@@ -135,6 +135,4 @@ void prepare(const Frame& frame) {
     }
 }
 
-bool is_prepared(const Frame& frame) { return frame.prepared != nullptr; }
-
 } // namespace glcast::record

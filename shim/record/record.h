@@ -102,7 +102,6 @@ struct DrawParts {
 /// that to the bit, so that replays need not make each call again. Memory counts as a recording; what does
 /// not fit stays as it is.
 void prepare(const Frame& frame);
-bool is_prepared(const Frame& frame);
 
 /// While replay() calls glDrawArrays or glDrawElements of a prepared frame, on this thread: what is drawn.
 /// Null: nothing is known of it.

@@ -112,16 +112,18 @@ std::string in_digits(double value) {
 }
 
 /// CLI::Range lets "nan" through.
-CLI::Validator seconds_from(double least) {
-    const auto check = [least](const std::string& text) {
+CLI::Validator from_to(const char* unit, double least, double most) {
+    const std::string range[] = {in_digits(least), in_digits(most)};
+    const auto check = [=](const std::string& text) {
         double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most_seconds;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
         return good ? std::string()
-                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " +
-                          text;
+                    : std::string("needs ") + unit + " from " + range[0] + " to " + range[1] + ", not " + text;
     };
-    return {check, "FLOAT in [" + in_digits(least) + " - " + in_digits(most_seconds) + "]"};
+    return {check, "FLOAT in [" + range[0] + " - " + range[1] + "]"};
 }
+
+CLI::Validator seconds_from(double least) { return from_to("seconds", least, most_seconds); }
 
 constexpr const char* list_picture_option = "--list-picture";
 
@@ -245,7 +247,7 @@ void declare(CLI::App& app, Options& o) {
            "--fov", o.view_angle,
            "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
         ->envname("GLCAST_FOV")
-        ->check(CLI::Range(0.001, 179.999));
+        ->check(from_to("degrees", 0.001, 179.999));
     app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
     app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
     app.add_option("--timeout", o.timeout_seconds,
