@@ -22,3 +22,11 @@ function(glcast_test name)
         PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} RUN_SERIAL $<BOOL:${T_SERIAL}>
         ENVIRONMENT "${GLCAST_TEST_ENVIRONMENT}")
 endfunction()
+
+# glcast_missing(NAME LABEL <label> NEEDS text): the suite NAME cannot be built here. It is skipped with the reason; under
+# tests/run, which installs all that tests need, it fails.
+function(glcast_missing name)
+    cmake_parse_arguments(T "" "LABEL;NEEDS" "" ${ARGN})
+    add_test(NAME ${name}.missing COMMAND ${PROJECT_SOURCE_DIR}/tests/support/missing ${name} "${T_NEEDS}")
+    set_tests_properties(${name}.missing PROPERTIES LABELS ${T_LABEL} SKIP_RETURN_CODE 77)
+endfunction()

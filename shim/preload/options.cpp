@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "capture/key_names.h"
+#include "capture/option_table.h"
 #include "capture/output_name.h"
 #include "capture/reference_views.h"
 #include "shim/preload/similarity.h"
@@ -130,80 +131,89 @@ bool parse_mask(const std::string& text, Options& options) {
     return true;
 }
 
-/// The variables beside GLCAST_OUT and what each may hold.
+/// How each variable beside GLCAST_OUT is read; capture/option_table.h says what it may hold.
 struct Variable {
-    const char* name;
-    const char* expected;
+    const CastOption& option;
     bool (*parse)(const std::string& text, Options& options);
 };
 constexpr Variable variables[] = {
-    {"GLCAST_N", "a whole number from 8 to 8192",
+    {cast_option("GLCAST_N"),
      [](const std::string& t, Options& o) {
          return parse_number(t, o.n) && o.n >= min_resolution && o.n <= max_resolution;
      }},
-    {"GLCAST_FRAME", "a whole number from 1",
+    {cast_option("GLCAST_FRAME"),
      [](const std::string& t, Options& o) { return parse_number(t, o.frame) && o.frame >= 1; }},
-    {"GLCAST_EVERY", "a whole number from 1",
+    {cast_option("GLCAST_EVERY"),
      [](const std::string& t, Options& o) { return parse_number(t, o.every) && o.every >= 1; }},
-    {"GLCAST_CAPTURES", "a whole number from 0",
+    {cast_option("GLCAST_CAPTURES"),
      [](const std::string& t, Options& o) { return parse_number(t, o.captures) && o.captures >= 0; }},
-    {"GLCAST_KEY", "a key, like F12, Print or x",
+    {cast_option("GLCAST_KEY"),
      [](const std::string& t, Options& o) {
          o.key = t;
          return (o.key_symbol = key_symbol(t)) != 0;
      }},
-    {"GLCAST_SIGNAL", "a signal that does not end programs, like USR1 or RTMIN+1",
+    {cast_option("GLCAST_SIGNAL"),
      [](const std::string& t, Options& o) { return (o.signal = signal_number(t)) != 0; }},
-    {"GLCAST_NUDGE", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.nudge); }},
-    {"GLCAST_AFTER", "seconds, 0 or more",
+    {cast_option("GLCAST_NUDGE"), [](const std::string& t, Options& o) { return parse_switch(t, o.nudge); }},
+    {cast_option("GLCAST_AFTER"),
      [](const std::string& t, Options& o) {
          return parse_number(t, o.after_seconds) && std::isfinite(o.after_seconds) && o.after_seconds >= 0;
      }},
-    {"GLCAST_NORMALS", "signed or six", parse_normals},
-    {"GLCAST_LAYERS", "auto, slab, or a whole number from 1 to 256", parse_layers},
-    {"GLCAST_SHADERS", "0 or 1",
+    {cast_option("GLCAST_NORMALS"), parse_normals},
+    {cast_option("GLCAST_LAYERS"), parse_layers},
+    {cast_option("GLCAST_SHADERS"),
      [](const std::string& t, Options& o) { return parse_switch(t, o.use_shaders); }},
-    {"GLCAST_REPLAY", "arrays or calls",
+    {cast_option("GLCAST_REPLAY"),
      [](const std::string& t, Options& o) {
          o.prepare_replay = t == "arrays";
          return o.prepare_replay || t == "calls";
      }},
-    {"GLCAST_BOX",
-     "x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1, none beyond 1e30, and a millionth of that apart",
-     parse_box},
-    {"GLCAST_FRAME_MATRIX", "eye, base, or the 16 numbers of a similarity, column by column",
-     parse_frame_matrix},
-    {"GLCAST_LIST", "0, 1 or the name of a .png", parse_list_option},
-    {"GLCAST_INCLUDE", "lines, points or lines,points", parse_include},
-    {"GLCAST_TRANSPARENT", "keep or skip", parse_transparent},
-    {"GLCAST_BACKDROP", "keep",
+    {cast_option("GLCAST_BOX"), parse_box},
+    {cast_option("GLCAST_FRAME_MATRIX"), parse_frame_matrix},
+    {cast_option("GLCAST_LIST"), parse_list_option},
+    {cast_option("GLCAST_INCLUDE"), parse_include},
+    {cast_option("GLCAST_TRANSPARENT"), parse_transparent},
+    {cast_option("GLCAST_BACKDROP"),
      [](const std::string& t, Options& o) { return o.keep_backdrops = t == "keep"; }},
-    {"GLCAST_FOV", "degrees, more than 0 and less than 180", parse_view_angle},
-    {"GLCAST_GROUP", "a whole number from 1",
+    {cast_option("GLCAST_FOV"), parse_view_angle},
+    {cast_option("GLCAST_GROUP"),
      [](const std::string& t, Options& o) { return parse_number(t, o.group) && o.group >= 1; }},
-    {"GLCAST_REFERENCE_VIEWS", "a whole number from 1 to 36, and no GLCAST_BOX with it",
+    {cast_option("GLCAST_REFERENCE_VIEWS"),
      [](const std::string& t, Options& o) {
          return parse_number(t, o.reference_views) && o.reference_views >= 1 &&
                 o.reference_views <= max_reference_views && !o.box;
      }},
-    {"GLCAST_REFERENCE_N", "a whole number from 8 to 8192",
+    {cast_option("GLCAST_REFERENCE_N"),
      [](const std::string& t, Options& o) {
          return parse_number(t, o.reference_n) && o.reference_n >= min_resolution &&
                 o.reference_n <= max_resolution;
      }},
-    {"GLCAST_WINDOW", "a window's number, its id with 0x, or a part of its title",
-     [](const std::string& t, Options& o) { return !(o.window = t).empty(); }},
-    {"GLCAST_MASK", "float, fbo or glsl, with commas between", parse_mask},
-    {"GLCAST_MEMORY", "MiB, a whole number from 1",
+    {cast_option("GLCAST_WINDOW"), [](const std::string& t, Options& o) { return !(o.window = t).empty(); }},
+    {cast_option("GLCAST_MASK"), parse_mask},
+    {cast_option("GLCAST_MEMORY"),
      [](const std::string& t, Options& o) { return parse_number(t, o.memory_mib) && o.memory_mib >= 1; }},
-    {"GLCAST_MAX_SECONDS", "seconds, more than 0",
+    {cast_option("GLCAST_MAX_SECONDS"),
      [](const std::string& t, Options& o) {
          return parse_number(t, o.most_seconds) && std::isfinite(o.most_seconds) && o.most_seconds > 0;
      }},
-    {"GLCAST_READ_ENDS", "0 or 1",
+    {cast_option("GLCAST_READ_ENDS"),
      [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
-    {"GLCAST_QUIT", "0 or 1", [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
+    {cast_option("GLCAST_QUIT"), [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
 };
+
+/// GLCAST_OUT is read below, the others by glcast-run and where lines are written.
+constexpr std::string_view read_elsewhere[] = {"", "GLCAST_OUT", "GLCAST_LIBRARY", "GLCAST_VERBOSE"};
+
+consteval bool all_are_read() {
+    for (const CastOption& option : cast_options) {
+        const auto is_same = [&](const Variable& v) { return v.option.variable == option.variable; };
+        if (std::ranges::none_of(variables, is_same) &&
+            std::ranges::find(read_elsewhere, option.variable) == std::end(read_elsewhere))
+            return false;
+    }
+    return true;
+}
+static_assert(all_are_read(), "a variable of capture/option_table.h that nothing reads");
 
 /// Why a file could not be written there, found before the program has drawn anything.
 std::string check_output(const std::string& out) {
@@ -232,9 +242,10 @@ bool is_set(const char* name) {
 Options read_options() {
     Options options;
     for (const Variable& variable : variables) {
-        const char* text = std::getenv(variable.name);
+        const char* text = std::getenv(variable.option.variable);
         if (!text || !*text || variable.parse(text, options)) continue;
-        options.error = std::string(variable.name) + "=" + text + ": expected " + variable.expected;
+        options.error =
+            std::string(variable.option.variable) + "=" + text + ": expected " + variable.option.expected;
         return options;
     }
     if (options.captures < 0) {

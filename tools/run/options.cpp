@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "capture/key_names.h"
+#include "capture/option_table.h"
 #include "capture/view.h"
 #include "tools/io/mesh_endings.h"
 #include "tools/run/mesh_options.h"
@@ -167,103 +168,68 @@ void declare_mesh_options(CLI::App& app, Options& o) {
     }
 }
 
-void declare(CLI::App& app, Options& o) {
-    app.add_option("-o,--output", o.output,
-                   "Capture (.exr), or mesh to make of it (" + listed_mesh_endings() +
-                       "); default: PROGRAM.exr here")
-        ->envname("GLCAST_OUT");
-    app.add_option("-n,--resolution", o.n, "Samples along each axis")
-        ->envname("GLCAST_N")
-        ->check(CLI::Range(min_resolution, max_resolution))
-        ->capture_default_str();
-    auto* frame = app.add_option("--frame", o.frame,
-                                 "Cast frame N, counted from 1 (default: the first with solid geometry)")
-                      ->envname("GLCAST_FRAME")
-                      ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option("--after", o.after_seconds, "Cast what stands in the window after so many seconds, or the next frame")
-        ->envname("GLCAST_AFTER")
-        ->check(seconds_from(0))
-        ->excludes(frame);
-    app.add_option("--key", o.key, "Cast a frame each time this key (F12, Print, x, ...) is pressed")
-        ->envname("GLCAST_KEY")
-        ->check(check_key);
-    app.add_option("--signal", o.signal, "Cast a frame each time this signal (USR1, ...) comes to PROGRAM")
-        ->envname("GLCAST_SIGNAL")
-        ->check(check_signal);
-    app.add_flag("--nudge", o.nudge, "Expose, resize and remap the window while no frame comes")
-        ->envname("GLCAST_NUDGE");
-    app.add_option("--every", o.every, "Cast every Nth frame from then on (%f in -o is the frame's number)")
-        ->envname("GLCAST_EVERY")
-        ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option(
-           "--captures", o.captures,
-           "Cast so many frames (default: 1; with --every, --key and --signal no limit, but 1 with --quit)")
-        ->envname("GLCAST_CAPTURES")
-        ->check(CLI::Range(1L, 1'000'000'000L));
-    app.add_option("--normals", o.normals,
-                   "signed: one render; six: the paper's six renders; of a mesh also drawn or geometric")
-        ->envname("GLCAST_NORMALS")
+/// Rows of the table, with what reads them.
+CLI::Option* named(CLI::Option* option, const CastOption& row) {
+    return *row.variable ? option->envname(row.variable) : option;
+}
+template <class T> CLI::Option* value(CLI::App& app, const CastOption& row, T& target) {
+    return named(app.add_option(row.names, target, row.meaning), row);
+}
+CLI::Option* flag(CLI::App& app, const CastOption& row, bool& target) {
+    return named(app.add_flag(row.names, target, row.meaning), row);
+}
+
+void declare_when(CLI::App& app, Options& o) {
+    auto* frame = value(app, cast_option("--frame"), o.frame)->check(CLI::Range(1L, 1'000'000'000L));
+    value(app, cast_option("--after"), o.after_seconds)->check(seconds_from(0))->excludes(frame);
+    value(app, cast_option("--key"), o.key)->check(check_key);
+    value(app, cast_option("--signal"), o.signal)->check(check_signal);
+    flag(app, cast_option("--nudge"), o.nudge);
+    value(app, cast_option("--every"), o.every)->check(CLI::Range(1L, 1'000'000'000L));
+    value(app, cast_option("--captures"), o.captures)->check(CLI::Range(1L, 1'000'000'000L));
+}
+
+void declare_how(CLI::App& app, Options& o) {
+    value(app, cast_option("--normals"), o.normals)
         ->check(CLI::IsMember({"signed", "six", "drawn", "geometric"}))
         ->capture_default_str();
-    app.add_option(
-           "--layers", o.layers,
-           "auto: all hits of each ray; K: at most K, 1 for the six views alone; slab: by clip planes")
-        ->envname("GLCAST_LAYERS")
-        ->check(check_layers)
-        ->capture_default_str();
-    app.add_option("--box", o.box, "x0,y0,z0,x1,y1,z1 in the capture frame (default: found by drawing)")
-        ->envname("GLCAST_BOX")
-        ->check(check_box);
-    app.add_option("--frame-matrix", o.frame_matrix,
-                   "eye, base or 16 numbers, column by column: eye space to capture frame")
-        ->envname("GLCAST_FRAME_MATRIX")
-        ->check(check_frame_matrix);
-    app.add_option("--group", o.group, "Cast group K of --list (default: the one with most triangles)")
-        ->envname("GLCAST_GROUP")
-        ->check(CLI::Range(1, 1'000'000));
-    app.add_option(
-           "--window", o.window,
-           "Cast this window alone: its number or title in --list, or its X id, 0x...; default: the one "
-           "that shows most")
-        ->envname("GLCAST_WINDOW");
-    app.add_flag("--list", o.list,
-                 "Print the groups of the frame instead of casting it, then end the program; "
-                 "--list FILE.png also shows them");
+    value(app, cast_option("--layers"), o.layers)->check(check_layers)->capture_default_str();
+    value(app, cast_option("--box"), o.box)->check(check_box);
+    value(app, cast_option("--frame-matrix"), o.frame_matrix)->check(check_frame_matrix);
+}
+
+void declare_what(CLI::App& app, Options& o) {
+    value(app, cast_option("--group"), o.group)->check(CLI::Range(1, 1'000'000));
+    value(app, cast_option("--window"), o.window);
+    // The variable may hold the name of a picture too: parse_options reads it.
+    app.add_flag(cast_option("--list").names, o.list, cast_option("--list").meaning);
     app.add_option(list_picture_option, o.list_picture)->group("");
-    app.add_option("--include", o.include, "Also cast lines, points or lines,points, a sample thick")
-        ->envname("GLCAST_INCLUDE")
+    value(app, cast_option("--include"), o.include)
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
-    app.add_option("--transparent", o.transparent,
-                   "What is blended: keep or skip all of it (default: keep it where half or less of what is "
-                   "behind shows)")
-        ->envname("GLCAST_TRANSPARENT")
-        ->check(CLI::IsMember({"keep", "skip"}));
-    app.add_option("--backdrop", o.backdrop,
-                   "keep: cast skies, pictures behind the scene and outlines too (default: left out, with a "
-                   "line that says so)")
-        ->envname("GLCAST_BACKDROP")
-        ->check(CLI::IsMember({"keep"}));
-    app.add_option(
-           "--fov", o.view_angle,
-           "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates")
-        ->envname("GLCAST_FOV")
-        ->check(from_to("degrees", 0.001, 179.999));
-    app.add_flag("--headless", o.headless, "Run under an X server of its own, with software GL");
-    app.add_flag("--quit", o.quit, "End the program after the capture")->envname("GLCAST_QUIT");
-    app.add_option("--timeout", o.timeout_seconds,
-                   "Give up and end the program after so many seconds (default: " +
-                       std::to_string(static_cast<int>(default_quit_timeout_seconds)) +
-                       " with --quit or --headless, else never)")
-        ->check(seconds_from(0.001));
-    app.add_option("--max-seconds", o.most_seconds,
-                   "Give up a cast that takes longer, and let the program run on (default: never)")
-        ->envname("GLCAST_MAX_SECONDS")
-        ->check(seconds_from(0.001));
-    app.add_flag("--keep-capture", o.keep_capture, "Of a mesh: keep the capture too, beside it, as .exr");
-    app.add_flag("--verbose", o.verbose, "Say also how, with figures");
-    app.add_flag(
-        "--json", o.json,
-        "Print one JSON object on standard output; what PROGRAM prints there goes to standard error");
+    value(app, cast_option("--transparent"), o.transparent)->check(CLI::IsMember({"keep", "skip"}));
+    value(app, cast_option("--backdrop"), o.backdrop)->check(CLI::IsMember({"keep"}));
+    value(app, cast_option("--fov"), o.view_angle)->check(from_to("degrees", 0.001, 179.999));
+}
+
+void declare_run(CLI::App& app, Options& o) {
+    flag(app, cast_option("--headless"), o.headless);
+    flag(app, cast_option("--quit"), o.quit);
+    value(app, cast_option("--timeout"), o.timeout_seconds)->check(seconds_from(0.001));
+    value(app, cast_option("--max-seconds"), o.most_seconds)->check(seconds_from(0.001));
+    flag(app, cast_option("--keep-capture"), o.keep_capture);
+    app.add_flag(cast_option("--verbose").names, o.verbose, cast_option("--verbose").meaning);
+    flag(app, cast_option("--json"), o.json);
+}
+
+void declare(CLI::App& app, Options& o) {
+    value(app, cast_option("--output"), o.output);
+    value(app, cast_option("--resolution"), o.n)
+        ->check(CLI::Range(min_resolution, max_resolution))
+        ->capture_default_str();
+    declare_when(app, o);
+    declare_how(app, o);
+    declare_what(app, o);
+    declare_run(app, o);
     app.set_version_flag("--version", "glcast-run " GLCAST_VERSION);
     declare_mesh_options(app, o);
     app.footer("Exit status: 0 cast, 1 not cast (one line says why), 2 wrong usage.");
@@ -359,31 +325,31 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
 std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o, const std::string& capture,
                                                                 const std::filesystem::path& status_pipe) {
     return {
-        {"GLCAST_OUT", capture},
-        {"GLCAST_N", std::to_string(o.n)},
-        {"GLCAST_FRAME", o.frame > 0 ? std::to_string(o.frame) : ""},
-        {"GLCAST_KEY", o.key},
-        {"GLCAST_SIGNAL", o.signal},
-        {"GLCAST_NUDGE", o.nudge ? "1" : ""},
-        {"GLCAST_EVERY", o.every > 0 ? std::to_string(o.every) : ""},
-        {"GLCAST_CAPTURES", std::to_string(o.captures)},
-        {"GLCAST_AFTER", o.after_seconds > 0 ? in_digits(o.after_seconds) : ""},
-        {"GLCAST_NORMALS", o.normals},
-        {"GLCAST_LAYERS", o.layers},
-        {"GLCAST_BOX", o.box},
-        {"GLCAST_FRAME_MATRIX", o.frame_matrix},
-        {"GLCAST_WINDOW", o.window},
-        {"GLCAST_GROUP", o.group > 0 ? std::to_string(o.group) : ""},
-        {"GLCAST_LIST", !o.list_picture.empty() ? o.list_picture
-                        : o.list                ? "1"
-                                                : ""},
-        {"GLCAST_INCLUDE", o.include},
-        {"GLCAST_TRANSPARENT", o.transparent},
-        {"GLCAST_BACKDROP", o.backdrop},
-        {"GLCAST_FOV", o.view_angle > 0 ? in_digits(o.view_angle) : ""},
-        {"GLCAST_QUIT", o.quit ? "1" : ""},
-        {"GLCAST_MAX_SECONDS", o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
-        {"GLCAST_VERBOSE", o.verbose ? "1" : ""},
+        {cast_option("GLCAST_OUT").variable, capture},
+        {cast_option("GLCAST_N").variable, std::to_string(o.n)},
+        {cast_option("GLCAST_FRAME").variable, o.frame > 0 ? std::to_string(o.frame) : ""},
+        {cast_option("GLCAST_KEY").variable, o.key},
+        {cast_option("GLCAST_SIGNAL").variable, o.signal},
+        {cast_option("GLCAST_NUDGE").variable, o.nudge ? "1" : ""},
+        {cast_option("GLCAST_EVERY").variable, o.every > 0 ? std::to_string(o.every) : ""},
+        {cast_option("GLCAST_CAPTURES").variable, std::to_string(o.captures)},
+        {cast_option("GLCAST_AFTER").variable, o.after_seconds > 0 ? in_digits(o.after_seconds) : ""},
+        {cast_option("GLCAST_NORMALS").variable, o.normals},
+        {cast_option("GLCAST_LAYERS").variable, o.layers},
+        {cast_option("GLCAST_BOX").variable, o.box},
+        {cast_option("GLCAST_FRAME_MATRIX").variable, o.frame_matrix},
+        {cast_option("GLCAST_WINDOW").variable, o.window},
+        {cast_option("GLCAST_GROUP").variable, o.group > 0 ? std::to_string(o.group) : ""},
+        {cast_option("GLCAST_LIST").variable, !o.list_picture.empty() ? o.list_picture
+                                              : o.list                ? "1"
+                                                                      : ""},
+        {cast_option("GLCAST_INCLUDE").variable, o.include},
+        {cast_option("GLCAST_TRANSPARENT").variable, o.transparent},
+        {cast_option("GLCAST_BACKDROP").variable, o.backdrop},
+        {cast_option("GLCAST_FOV").variable, o.view_angle > 0 ? in_digits(o.view_angle) : ""},
+        {cast_option("GLCAST_QUIT").variable, o.quit ? "1" : ""},
+        {cast_option("GLCAST_MAX_SECONDS").variable, o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
+        {cast_option("GLCAST_VERBOSE").variable, o.verbose ? "1" : ""},
         {"GLCAST_STATUS", status_pipe},
     };
 }
