@@ -93,7 +93,7 @@ inline constexpr CastOption cast_options[] = {
     {"", "GLCAST_LIBRARY", "FILE", "The library that glcast-run preloads, in place of its own",
      "a file name"},
     {"", "GLCAST_SHADERS", "0", "Peel by slabs, as if the driver had no shaders", "0 or 1"},
-    {"", "GLCAST_MASK", "float,fbo,glsl", "As if the driver lacked these",
+    {"", "GLCAST_MASK", "float,fbo,glsl,queries", "As if the driver lacked these",
      "float, fbo or glsl, with commas between"},
     {"", "GLCAST_REPLAY", "calls", "Each recorded call is made again in each replay", "arrays or calls"},
     {"", "GLCAST_READ_ENDS", "1", "glReadPixels, glFlush and glFinish end a frame too", "0 or 1"},

@@ -41,11 +41,12 @@ set(CPACK_DEBIAN_I386_PACKAGE_ARCHITECTURE i386)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libglcast-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libglm-dev")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "reconstruction library of glcast (static)
- Six depth, colour and normal images of an object, and what lies behind the first
- hit where there is more, become a closed two-manifold mesh. For programs that
- link it by CMake: find_package(glcast), target glcast::reconstruct.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libglm-dev, libembree-dev, libimath-dev, libopenmesh-dev, lib3mf-dev, libmeshoptimizer-dev, \
+libtinygltf-dev, nlohmann-json3-dev, zlib1g-dev, pkg-config")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "library of glcast (static)
+ Capture files, or six depth, colour and normal images of an object, become a
+ closed two-manifold mesh, its levels of detail and their files. For programs that
+ link it by CMake: find_package(glcast), glcast::pipeline or glcast::reconstruct.")
 
 # What Debian wants to find in /usr/share/doc.
 string(TIMESTAMP changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -122,6 +122,8 @@ bool parse_mask(const std::string& text, Options& options) {
             options.mask.floats = true;
         else if (part == "fbo")
             options.mask.framebuffers = true;
+        else if (part == "queries")
+            options.mask.queries = true;
         else if (part == "glsl")
             options.use_shaders = false;
         else

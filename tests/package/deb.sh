@@ -70,7 +70,7 @@ if [ -f "$library32" ]; then
     "$root/usr/bin/glcast-run" -o b.exr -- ./maps >maps.txt 2>maps.err || true # no GL seen
     grep -q "$root/usr/lib/i386-linux-gnu/glcast/libglcast.so" maps.txt || { cat maps.err; fail "the 32-bit library is not preloaded"; }
 fi
-sh "$source/tests/package/consumer.sh" "$root/usr" "$source" "$work/consumer" || fail "the CMake package does not work"
+sh "$source/tests/package/consumer.sh" "$root/usr" "$source" "$work/consumer" "$work/a.exr" || fail "the CMake package does not work"
 
 # Removed.
 "${as_root[@]}" dpkg --root="$root" --force-not-root --no-triggers --purge glcast libglcast-dev libglcast0:"$here" \

@@ -298,7 +298,7 @@ int main(int argc, char** argv) {
     try {
         switch (parse_options(argc, argv, options)) {
         case Parsed::done:
-            return 0;
+            return std::cout.flush() ? 0 : fail("cannot write to standard output");
         case Parsed::usage_error:
             return 2;
         case Parsed::run:

@@ -114,16 +114,18 @@ std::string in_digits(double value) {
 }
 
 /// CLI::Range lets "nan" through.
-CLI::Validator seconds_from(double least) {
-    const auto check = [least](const std::string& text) {
+CLI::Validator from_to(const char* unit, double least, double most) {
+    const std::string range[] = {in_digits(least), in_digits(most)};
+    const auto check = [=](const std::string& text) {
         double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most_seconds;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
         return good ? std::string()
-                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " +
-                          text;
+                    : std::string("needs ") + unit + " from " + range[0] + " to " + range[1] + ", not " + text;
     };
-    return {check, "FLOAT in [" + in_digits(least) + " - " + in_digits(most_seconds) + "]"};
+    return {check, "FLOAT in [" + range[0] + " - " + range[1] + "]"};
 }
+
+CLI::Validator seconds_from(double least) { return from_to("seconds", least, most_seconds); }
 
 constexpr const char* list_picture_option = "--list-picture";
 
@@ -207,7 +209,7 @@ void declare_what(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
     value(app, cast_option("--transparent"), o.transparent)->check(CLI::IsMember({"keep", "skip"}));
     value(app, cast_option("--backdrop"), o.backdrop)->check(CLI::IsMember({"keep"}));
-    value(app, cast_option("--fov"), o.view_angle)->check(CLI::Range(0.001, 179.999));
+    value(app, cast_option("--fov"), o.view_angle)->check(from_to("degrees", 0.001, 179.999));
 }
 
 void declare_run(CLI::App& app, Options& o) {
