@@ -133,7 +133,7 @@ CastResult CaptureJob::write(const DrawFunction& draw, const CaptureInfo& info, 
     if (!writer.error().empty()) return failure(writer.error());
     const EngineReport report = run_capture(replay.gl, draw, engine, [&](ViewImage&& image) {
         replay.patience.image_is_done(image.view);
-        return writer.add(std::move(image));
+        return writer.add(image);
     });
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
@@ -167,7 +167,7 @@ CastResult CaptureJob::write_references(CaptureInfo info, const std::string& pat
         info.from_capture = rotation;
         info.eye.reset();
         info.seen_places.clear();
-        const CastResult result = write(draw, info, engine, reference_name(path, ++count));
+        CastResult result = write(draw, info, engine, reference_name(path, ++count));
         if (result.outcome != CastOutcome::captured) return result;
     }
     return captured;
