@@ -166,6 +166,9 @@ class Capture {
         pass.axis = image.view.axis;
         pass.side = image.view.side;
         pass.outermost = true;
+        OpenTiles tiles(report.box, pass.axis, image.n);
+        tiles.open_all();
+        pass.open = &tiles;
 
         auto start = Clock::now();
         passes.run(pass, target);
@@ -181,11 +184,10 @@ class Capture {
         start = Clock::now();
         pass.only =
             bounds_of(PixelRect::whole(image.n), image.n, [&](std::size_t p) { return image.covered(p); });
-        OpenTiles tiles(report.box, pass.axis, image.n);
+        tiles.close_all();
         for_each_pixel(*pass.only, image.n, [&](std::size_t p) {
             if (image.covered(p)) tiles.open(p, image.depth[p], image.depth[p]);
         });
-        pass.open = &tiles;
         image.normal.assign(image.depth.size(), glm::vec4(0));
         image.other_colour.clear(), image.other_normal.clear();
         if (!pass.only->empty()) {

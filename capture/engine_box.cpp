@@ -23,6 +23,7 @@ struct Bounds {
         lo[axis] = std::min(lo[axis], from);
         hi[axis] = std::max(hi[axis], to);
     }
+    void include(const Bounds& other) { lo = glm::min(lo, other.lo), hi = glm::max(hi, other.hi); }
     double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
     Box cube(double size) const { return {0.5 * (lo + hi) - 0.5 * size, size}; }
 };
@@ -108,21 +109,26 @@ bool look_along(PassRunner& passes, const Target& target, const Box& box, Axis a
         Extent& extent = extents[static_cast<int>(side)];
         extent = extent_of(depth, target.size(), side);
         include(bounds, extent, box, axis, target.size());
-        if (until_cut && bounds.touches) return !(outline && outline->has_left_out());
+        if (until_cut && bounds.touches) return true; // so it does with what was left out
     }
     return !outline || encloses(*outline, extents[0], extents[1], box, axis, target.size());
 }
 
-Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool until_cut) {
+/// Looks again where what was seen does not enclose what was left out: parts may be invisible, so first
+/// without those that lie inside of what was seen by then, then with all.
+Bounds look_into(PassRunner& passes, const Target& target, const Box& box, bool until_cut, Bounds known) {
     Bounds bounds;
     for (Axis axis : {Axis::x, Axis::y, Axis::z}) {
-        Outline outline(box, axis, target.size());
-        Bounds seen = bounds;
-        if (!look_along(passes, target, box, axis, until_cut, &outline, seen)) {
+        Bounds seen;
+        for (int attempt = 0; attempt < 3; ++attempt) {
+            Outline outline(box, axis, target.size(), known.lo, known.hi);
             seen = bounds;
-            look_along(passes, target, box, axis, until_cut, nullptr, seen);
+            const bool is_last = attempt == 2;
+            if (look_along(passes, target, box, axis, until_cut, is_last ? nullptr : &outline, seen)) break;
+            known.include(seen);
         }
         bounds = seen;
+        known.include(seen);
         if (until_cut && bounds.touches) return bounds;
     }
     return bounds;
@@ -146,7 +152,7 @@ std::optional<Box> search_box(PassRunner& passes, const Target& target, const Bo
     bool anything = false;
     for (int round = 0; round < max_rounds; ++round) {
         const bool may_grow = growths < (anything ? max_growths : max_empty_growths);
-        const Bounds seen = look_into(passes, target, box, may_grow);
+        const Bounds seen = look_into(passes, target, box, may_grow, known);
         anything |= !seen.empty();
         if (seen.empty() && !known.empty()) break; // smaller than float depth can tell: keep what was seen
         if (may_grow && (seen.empty() || seen.touches)) {

@@ -136,6 +136,7 @@ PassRunner::PassRunner(const GlTable& gl, const DrawFunction& draw, const Engine
 /// The first pass of all is drawn again where it met several offsets, which it then knows.
 void PassRunner::run(const Pass& pass, const Target& target) {
     if (stencil) find_masks(pass, target);
+    if (pass.outline && !std::exchange(has_noted_places, true)) note_places(pass, target);
     draw_once(pass, target, !offsets_known);
     if (!std::exchange(offsets_known, true) && offset_levels.several()) draw_once(pass, target, false);
 }
@@ -200,12 +201,25 @@ void PassRunner::draw_once(const Pass& pass, const Target& target, bool learning
     swallow_errors(gl);
 }
 
-/// What is drawn nearer by its offset lies at no depth of its own.
+/// Before the first pass that leaves out what lies inside of the rest.
+void PassRunner::note_places(const Pass& pass, const Target& target) {
+    set_state(pass, target);
+    ForcedTable forced(gl, facts(pass, target, false), mirrored(pass));
+    Sought sought;
+    sought.eye_to_capture = eye_to_capture;
+    sought.notes_places = sought.only_places = true;
+    draw(forced.table(), sought);
+    swallow_errors(gl);
+}
+
+/// What is drawn nearer by its offset lies at no depth of its own. A pass that learns of several offsets is
+/// drawn again, and shows nothing where a stencil test keeps it to places.
 Sought PassRunner::sought(const Pass& pass, bool learning) const {
     Sought sought;
     sought.eye_to_capture = eye_to_capture;
     sought.notes_places = pass.outline != nullptr;
-    if (learning) return sought;
+    sought.shows_all = learning;
+    if (learning && (stencil || !pass.outline)) return sought;
     const bool shifts = pass.offsets && offset_levels.several();
     if (!shifts) sought.open = pass.open, sought.outline = pass.outline;
     if (pass.polygon_mode == GL_POINT && !shifts) sought.corners = &pass.box;

@@ -65,6 +65,7 @@ class PassRunner {
 
   private:
     void draw_once(const Pass& pass, const Target& target, bool learning);
+    void note_places(const Pass& pass, const Target& target);
     void find_masks(const Pass& pass, const Target& target);
     void find_masks_of(Side viewer, const Pass& pass, const Target& target);
     PassFacts facts(const Pass& pass, const Target& target, bool learning);
@@ -82,7 +83,7 @@ class PassRunner {
     const bool mirrored_projection;
     ProgramStencil* const stencil;
     int draw_count = 0;
-    bool own_program = false, unblended = false;
+    bool own_program = false, unblended = false, has_noted_places = false;
     OffsetLevels offset_levels;
     bool offsets_known = false;
     OffsetClamp offset_clamp;

@@ -33,6 +33,12 @@ constinit OutputFile* first_open = nullptr;
 
 std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
+/// A name for an O_TMPFILE. False where something has it.
+bool link_to(int descriptor, const std::string& path) {
+    const std::string from = descriptor_path(descriptor);
+    return linkat(AT_FDCWD, from.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
 } // namespace
 
 OutputFile::OutputFile(std::string target) : path(std::move(target)) {
@@ -126,10 +132,9 @@ bool OutputFile::skip_to(std::uint64_t offset) {
 /// Gives an O_TMPFILE its temporary name; rename() then replaces what may be at the target, which link()
 /// cannot.
 bool OutputFile::name_unnamed() {
-    const std::string from = descriptor_path(descriptor);
     for (int attempt = 0; attempt < 100; ++attempt) {
         const std::string name = temporary_name(path);
-        if (linkat(AT_FDCWD, from.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+        if (link_to(descriptor, name)) {
             temporary = name;
             return true;
         }
@@ -159,10 +164,16 @@ void discard_unfinished_files() {
 bool OutputFile::put_in_place() {
     if (!message.empty()) return false;
     if (descriptor < 0) return fail("cannot write", EBADF);
-    if (temporary.empty() && !name_unnamed()) return false;
+    const bool is_linked = temporary.empty() && link_to(descriptor, path); // in one step: a kill leaves nothing
+    if (!is_linked && temporary.empty() && !name_unnamed()) return false;
     const int closed = close(descriptor); // network file systems tell here that the disk is full
     descriptor = -1;
-    if (closed != 0) return fail("cannot write", errno);
+    if (closed != 0) {
+        fail("cannot write", errno);
+        if (is_linked) unlink(path.c_str());
+        return false;
+    }
+    if (is_linked) return true;
     if (rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot write", errno);
     temporary.clear();
     return true;

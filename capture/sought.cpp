@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace glcast {
@@ -28,7 +29,7 @@ double carried_depth(const Place& place, int axis, const Box& box, int n, double
 } // namespace
 
 OpenTiles::OpenTiles(const Box& of, Axis axis, int n)
-    : box(of), axes(image_axes(axis)), n(n), size((n + most_tiles_across - 1) / most_tiles_across),
+    : box(of), axis(axis), axes(image_axes(axis)), n(n), size((n + most_tiles_across - 1) / most_tiles_across),
       across(static_cast<std::size_t>((n + size - 1) / size)), tiles(across * across) {
     rounding = rounding_of(box);
     close_all();
@@ -37,6 +38,11 @@ OpenTiles::OpenTiles(const Box& of, Axis axis, int n)
 void OpenTiles::close_all() {
     std::fill(tiles.begin(), tiles.end(),
               Tile{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()});
+}
+
+void OpenTiles::open_all() {
+    std::fill(tiles.begin(), tiles.end(),
+              Tile{-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()});
 }
 
 /// A face has a fragment where it covers a pixel's centre.
@@ -50,39 +56,82 @@ OpenTiles::Span OpenTiles::tiles_between(double lo, double hi, int axis) const {
     return first <= last ? Span{first / size, last / size} : Span{0, -1};
 }
 
-bool OpenTiles::meet(const Place& place) const {
+bool OpenTiles::has_centre(const glm::dvec3& lo, const glm::dvec3& hi) const {
+    for (const int i : {axes.u, axes.v}) {
+        const Span span = tiles_between(lo[i], hi[i], i);
+        if (span.first > span.last) return false;
+    }
+    return true;
+}
+
+std::optional<OpenTiles::Cover> OpenTiles::cover_of(const Place& place) const {
     const Span u = tiles_between(place.lo[axes.u], place.hi[axes.u], axes.u),
                v = tiles_between(place.lo[axes.v], place.hi[axes.v], axes.v);
+    if (u.first > u.last || v.first > v.last) return std::nullopt;
     const double carried = carried_depth(place, axes.depth, box, n, rounding);
     const double near = (place.lo[axes.depth] - box.lo[axes.depth]) / box.size - carried,
                  far = (place.hi[axes.depth] - box.lo[axes.depth]) / box.size + carried;
-    for (int y = v.first; y <= v.last; ++y)
-        for (int x = u.first; x <= u.last; ++x) {
-            const Tile& tile = tiles[static_cast<std::size_t>(y) * across + x];
+    constexpr float end = std::numeric_limits<float>::infinity();
+    const auto tile = [](int at) { return static_cast<std::int16_t>(at); };
+    return Cover{tile(u.first),
+                 tile(u.last),
+                 tile(v.first),
+                 tile(v.last),
+                 std::nextafter(static_cast<float>(near), -end),
+                 std::nextafter(static_cast<float>(far), end)};
+}
+
+bool OpenTiles::meet(const Cover& cover) const {
+    for (int y = cover.v0; y <= cover.v1; ++y)
+        for (int x = cover.u0; x <= cover.u1; ++x) {
+            const Tile& tile = tiles[static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x)];
             if (tile.near > tile.far) continue;
-            if (!(near > tile.far || far < tile.near)) return true;
+            if (!(cover.near > tile.far || cover.far < tile.near)) return true;
         }
     return false;
 }
 
-Outline::Outline(const Box& of, Axis axis, int m)
-    : box(of), axes(image_axes(axis)), m(m), rounding(rounding_of(of)),
+Outline::Outline(const Box& of, Axis axis, int m, const glm::dvec3& seen_lo, const glm::dvec3& seen_hi)
+    : box(of), axes(image_axes(axis)), m(m), rounding(rounding_of(of)), seen_lo(seen_lo), seen_hi(seen_hi),
       left_lo(std::numeric_limits<double>::infinity()), left_hi(-std::numeric_limits<double>::infinity()) {}
 
-bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi) {
-    constexpr double rim = 0.004; // of what there is
+/// Across the image, what lies in the same outermost pixels as the rest widens nothing; in depth, what lies
+/// behind it by more than rounding.
+Outline::Limits Outline::limits_of(const glm::dvec3& lo, const glm::dvec3& hi) const {
+    constexpr double rim = 1e-4; // of what there is
+    constexpr double end = std::numeric_limits<double>::infinity();
     const double pixel = box.size / m;
+    const auto margin = [&](int i, double inward) { // `inward`: from the outer edge of the pixel, in pixels
+        const double least = rim * (hi[i] - lo[i]);
+        if (i == axes.depth) return std::max(least, 16 * rounding * box.size);
+        inward -= std::floor(inward);
+        if (inward > 1 - 2 * snap) inward -= 1; // it may be seen in the next one
+        return std::max(least, (2.5 * snap - inward) * pixel);
+    };
+    Limits limits{lo, hi, lo, hi};
+    for (int i = 0; i < 3; ++i) {
+        limits.lo[i] += margin(i, (lo[i] - box.lo[i]) / pixel);
+        limits.hi[i] -= margin(i, (box.lo[i] + box.size - hi[i]) / pixel);
+        const bool may_be_cut = lo[i] < box.lo[i] + pixel || hi[i] > box.lo[i] + box.size - pixel;
+        if (may_be_cut) limits.lo[i] = end;
+    }
+    return limits;
+}
+
+bool Outline::leave_out(const Place& place, const glm::dvec3& lo, const glm::dvec3& hi) {
+    if (!limits || limits->of_lo != lo || limits->of_hi != hi) {
+        const bool has_seen = seen_lo.x <= seen_hi.x;
+        limits = has_seen ? limits_of(glm::max(lo, seen_lo), glm::min(hi, seen_hi)) : limits_of(lo, hi);
+        limits->of_lo = lo, limits->of_hi = hi;
+    }
+    for (const int i : {axes.u, axes.v, axes.depth})
+        if (!(place.lo[i] > limits->lo[i] && place.hi[i] < limits->hi[i])) return false;
     const double carried = carried_depth(place, axes.depth, box, m, rounding) * box.size;
     glm::dvec3 place_lo = place.lo, place_hi = place.hi;
     place_lo[axes.depth] -= carried, place_hi[axes.depth] += carried;
-    for (int i = 0; i < 3; ++i) {
-        if (lo[i] < box.lo[i] + pixel || hi[i] > box.lo[i] + box.size - pixel)
-            return false; // it may be cut there
-        const double margin = std::max(2.5 * snap * pixel, rim * (hi[i] - lo[i]));
-        if (!(place_lo[i] > lo[i] + margin && place_hi[i] < hi[i] - margin)) return false;
-    }
-    for (int i = 0; i < 3; ++i)
-        left_lo[i] = std::min(left_lo[i], place_lo[i]), left_hi[i] = std::max(left_hi[i], place_hi[i]);
+    if (!(place_lo[axes.depth] > limits->lo[axes.depth] && place_hi[axes.depth] < limits->hi[axes.depth]))
+        return false;
+    left_lo = glm::min(left_lo, place_lo), left_hi = glm::max(left_hi, place_hi);
     return true;
 }
 

@@ -48,7 +48,7 @@ DrawFunction FrameReplay::drawing(const Candidate& candidate, const Wanted& want
     const auto places = std::make_shared<std::vector<DrawPlaces>>(parts.size());
     return [this, &candidate, wanted, places](const GlTable& table, const Sought& sought) {
         has_drawn = true;
-        patience.render_begins();
+        if (!sought.only_places) patience.render_begins();
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (candidate.in_part[part] >= 0)
                 replay_group(*parts[part].frame, scenes[part], candidate.in_part[part], wanted, table, sought,

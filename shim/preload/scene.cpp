@@ -13,6 +13,7 @@
 #include "shim/preload/eye_space.h"
 #include "shim/preload/hidden_faces.h"
 #include "shim/preload/scene_table.h"
+#include "shim/record/context.h"
 
 namespace glcast::preload {
 namespace {
@@ -46,6 +47,10 @@ class GroupFilter final : public DrawGate {
         if (draw.group != group) return false;
         const bool skipped =
             (wanted.only && !(*wanted.only)[number]) || (wanted.transparent == Transparent::skip && blending);
+        if (sought.only_places) {
+            if (!skipped && wants(draw)) place_of(draw, mode);
+            return false;
+        }
         if (wanted.everything) return !skipped;
         const bool is_wanted = !skipped && wants(draw) && may_be_found(draw, mode);
         if (!(wanted.stencil ? wanted.stencil->begin_draw(draw.stencil, is_wanted) : is_wanted)) return false;
@@ -65,6 +70,7 @@ class GroupFilter final : public DrawGate {
     void finish() {
         if (places) places->end();
     }
+    bool draws_nothing() const override { return sought.only_places; }
     bool may_fix_colour() const override { return scene.groups[group].is_hidden_line(); }
     bool fixes_colour() const override { return hidden_faces.entered(); }
 
@@ -75,29 +81,51 @@ class GroupFilter final : public DrawGate {
         return wanted.solid && is_solid(draw, scene.groups[group], wanted.backdrops);
     }
 
-    /// Says, too, what is to be drawn of it, and how.
-    bool may_be_found(const Draw& draw, GLenum mode) {
+    /// Null where it is not known.
+    const DrawPlace* place_of(const Draw& draw, GLenum mode) {
         const record::DrawParts* drawn = places && has_faces(mode) ? record::parts_of_draw() : nullptr;
-        if (!drawn) return true;
-        const DrawPlace* place = places->of(next - 1, [&] {
+        if (!drawn) return nullptr;
+        return places->of(next - 1, [&] {
             glm::dmat4 to_eye(1.0);
             inner.GetDoublev(GL_MODELVIEW_MATRIX, glm::value_ptr(to_eye));
             if (draw.eye_map >= 0) to_eye = scene.eye_maps[draw.eye_map].apply(to_eye);
             return find_place(*drawn, to_eye, sought.eye_to_capture);
         });
-        if (!place) return true;
-        if (sought.open || can_be_left_out()) {
-            auto seen = parts_of(*place, [&](const Place& part) {
-                return sought.open
-                           ? sought.open->meet(part)
-                           : !sought.outline->leave_out(part, places->around()->lo, places->around()->hi);
-            });
-            if (seen.empty()) return false;
-            if (place->parts.size() > 1) parts = std::move(seen);
-        }
+    }
+
+    /// Says, too, what is to be drawn of it, and how.
+    bool may_be_found(const Draw& draw, GLenum mode) {
+        const DrawPlace* place = place_of(draw, mode);
+        if (!place || (sought.shows_all && draw.hides)) return true; // how it shows is set later
         as_points = sought.corners && place->is_whole && lies_inside(*place, *sought.corners) &&
                     points_are_the_same();
+        const bool may_leave_out = sought.open || can_be_left_out();
+        if (sought.shows_all && (as_points || may_leave_out)) inner.DrawArrays(mode, 0, 0);
+        if (!may_leave_out) return true;
+        Selection seen = sought.open ? pieces_in_tiles(*place) : pieces_of_outline(*place);
+        if (seen.parts.empty()) return false;
+        parts = std::move(seen.parts);
         return true;
+    }
+
+    Selection pieces_in_tiles(const DrawPlace& place) const {
+        Selection seen;
+        for (const DrawCover::Piece& piece : places->cover_of(next - 1, place, *sought.open).pieces)
+            if (sought.open->meet(piece.cover)) seen.add(piece.part);
+        return seen;
+    }
+
+    Selection pieces_of_outline(const DrawPlace& place) const {
+        Selection seen;
+        const auto left_out = [&](const Place& of) {
+            return sought.outline->leave_out(of, places->around()->lo, places->around()->hi);
+        };
+        for (const DrawPlace::Part& part : place.parts) {
+            if (left_out(part.place)) continue;
+            for (const auto& piece : as_points ? vertices_of(place, part) : primitives_of(place, part))
+                if (!left_out(piece.place)) seen.add(piece);
+        }
+        return seen;
     }
 
     /// From an outline: where corners are drawn as points, these reach no farther than a pixel.
@@ -193,6 +221,7 @@ long cutting_draws(const std::vector<Scene>& scenes, const Group& group) {
 void replay_group(const record::Frame& frame, const Scene& scene, int group, const Wanted& wanted,
                   const GlTable& gl, const Sought& sought, DrawPlaces* places) {
     GroupFilter filter(gl, scene, group, wanted, sought, places);
+    if (sought.only_places && !frame.prepared) return;
     record::replay(frame, gated_table(filter));
     filter.finish();
 }

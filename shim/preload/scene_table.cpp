@@ -1,10 +1,12 @@
 #include "shim/preload/scene_table.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 #include <utility>
 
 #include "capture/gl/call_classes.h"
+#include "shim/preload/join_parts.h"
 
 namespace glcast::preload {
 namespace {
@@ -73,7 +75,8 @@ struct Attribute : ForGate {
 struct Colour : ForGate {
     static constexpr const char* what = "left out of draws in one colour";
     static void call(auto below, auto... arguments) {
-        if (!gate().fixes_colour()) below(arguments...);
+        if (!gate().fixes_colour()) return below(arguments...);
+        gate().late_colour = [=] { below(arguments...); }; // pointers are the frame's
     }
 };
 
@@ -104,12 +107,13 @@ void APIENTRY end() {
     if (!kept) return;
     gate().inner.End();
     gate().drawn();
+    if (const auto set = std::exchange(gate().late_colour, nullptr)) set(); // it goes on to be the current one
 }
 
 /// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first
-/// element, `many(mode, firsts, counts, number)` several such.
-template <class One, class Many>
-void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
+/// element, `many(mode, firsts, counts)` several such, `joined(mode, elements)` single ones.
+template <class One, class Many, class Joined>
+void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many, const Joined& joined) {
     if (!gate().keep(mode, primitive_count(mode, count))) return;
     const GLenum drawn = gate().as_points ? GL_POINTS : mode;
     if (!gate().parts) {
@@ -117,6 +121,8 @@ void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
     } else if (gate().parts->size() == 1) {
         one(drawn, static_cast<GLint>(gate().parts->front().first),
             static_cast<GLsizei>(gate().parts->front().count));
+    } else if (are_to_be_joined(*gate().parts)) {
+        joined(drawn, join_parts(drawn, *gate().parts));
     } else {
         std::vector<GLint> firsts;
         std::vector<GLsizei> counts;
@@ -128,6 +134,10 @@ void draw_parts(GLenum mode, GLsizei count, const One& one, const Many& many) {
     gate().drawn();
 }
 
+void draw_elements_of(GLenum mode, const std::vector<GLuint>& elements) {
+    gate().inner.DrawElements(mode, static_cast<GLsizei>(elements.size()), GL_UNSIGNED_INT, elements.data());
+}
+
 void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
     const GlTable& gl = gate().inner;
     draw_parts(
@@ -136,7 +146,18 @@ void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
         [&](GLenum drawn, std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
             for (GLint& at : firsts) at += first;
             gl.MultiDrawArrays(drawn, firsts.data(), counts.data(), static_cast<GLsizei>(counts.size()));
+        },
+        [&](GLenum drawn, std::vector<GLuint> elements) {
+            for (GLuint& element : elements) element += static_cast<GLuint>(first);
+            draw_elements_of(drawn, elements);
         });
+}
+
+GLuint index_at(const void* indices, GLint bytes, GLuint at) {
+    GLuint index = 0; // of a little-endian machine
+    std::memcpy(&index, static_cast<const std::byte*>(indices) + std::ptrdiff_t(at) * bytes,
+                static_cast<std::size_t>(bytes));
+    return index;
 }
 
 void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
@@ -151,6 +172,10 @@ void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void*
         [&](GLenum drawn, const std::vector<GLint>& firsts, const std::vector<GLsizei>& counts) {
             for (std::size_t i = 0; i < counts.size(); ++i)
                 gl.DrawElements(drawn, counts[i], type, from(firsts[i]));
+        },
+        [&](GLenum drawn, std::vector<GLuint> elements) {
+            for (GLuint& element : elements) element = index_at(indices, bytes, element);
+            draw_elements_of(drawn, elements);
         });
 }
 

@@ -1,9 +1,13 @@
 // Where a capture goes, and what is said when it cannot.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 
+#include "capture/output_file.h"
 #include "tests/preload/program_run.h"
 
 namespace glcast::test {
@@ -104,6 +108,37 @@ TEST(Output, glcast_run_refuses_devices_and_boxes_alike) {
     says({"-o", folder / "full.exr"}, "it is no regular file");
     says({"--box=-1e308,-1e308,-1e308,1e308,1e308,1e308"}, "beyond 1e30");
     says({"--max-seconds", "0"}, "--max-seconds");
+    says({"--fov", "nan"}, "needs degrees from");
+}
+
+TEST(Output, glcast_run_says_when_its_own_words_are_lost) {
+    for (const char* option : {"--help", "--version"}) {
+        const std::string command = std::string(GLCAST_RUN) + " " + option + " >/dev/full";
+        const Outcome outcome = run_program({"/bin/sh", "-c", command}, {}, false);
+        EXPECT_EQ(outcome.exit_code, 1) << option;
+        EXPECT_NE(outcome.err.find("cannot write to standard output"), std::string::npos) << outcome.err;
+    }
+}
+
+/// Nobody else may see a name that comes and goes, nor find it after a kill.
+TEST(Output, gets_its_name_in_one_step_where_there_was_none) {
+    const TemporaryFolder folder;
+    const int nameless = open((folder / ".").c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (nameless < 0) GTEST_SKIP() << "no O_TMPFILE here";
+    close(nameless);
+    const int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    ASSERT_GE(inotify_add_watch(watch, (folder / ".").c_str(), IN_CREATE | IN_MOVED_TO), 0);
+    {
+        OutputFile file(folder / "a.exr");
+        ASSERT_TRUE(file.append("whole", 5) && file.commit()) << file.error();
+    }
+    alignas(inotify_event) char events[4096];
+    const ssize_t got = read(watch, events, sizeof events);
+    close(watch);
+    ASSERT_GT(got, 0);
+    const auto* first = reinterpret_cast<const inotify_event*>(events);
+    EXPECT_STREQ(first->name, "a.exr");
+    EXPECT_EQ(std::size_t(got), sizeof(inotify_event) + first->len);
 }
 
 } // namespace

@@ -23,6 +23,8 @@ TEST_F(GlcastRun, RefusesWrongUsage) {
     for (const char* option : {"--after", "--timeout"})
         for (const char* seconds : {"nan", "-nan", "inf", "-1", "1e9", "soon"})
             expect_refused({option, seconds}, 2, seconds);
+    for (const char* degrees : {"nan", "0", "180", "-inf", "wide"})
+        expect_refused({"--fov", degrees}, 2, degrees);
     for (const char* key : {"nokey", "F99", "\x1b", ""}) expect_refused({"--key", key}, 2, "needs a key");
     for (const char* signal : {"KILL", "SIGTERM", "99", "NONE"})
         expect_refused({"--signal", signal}, 2, "needs a signal");

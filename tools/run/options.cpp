@@ -17,6 +17,7 @@
 #include "capture/view.h"
 #include "tools/io/mesh_endings.h"
 #include "tools/run/mesh_options.h"
+#include "tools/run/wine.h"
 #include "tools/words/text.h"
 
 namespace glcast::run {
@@ -113,16 +114,18 @@ std::string in_digits(double value) {
 }
 
 /// CLI::Range lets "nan" through.
-CLI::Validator seconds_from(double least) {
-    const auto check = [least](const std::string& text) {
+CLI::Validator from_to(const char* unit, double least, double most) {
+    const std::string range[] = {in_digits(least), in_digits(most)};
+    const auto check = [=](const std::string& text) {
         double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most_seconds;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
         return good ? std::string()
-                    : "needs seconds from " + in_digits(least) + " to " + in_digits(most_seconds) + ", not " +
-                          text;
+                    : std::string("needs ") + unit + " from " + range[0] + " to " + range[1] + ", not " + text;
     };
-    return {check, "FLOAT in [" + in_digits(least) + " - " + in_digits(most_seconds) + "]"};
+    return {check, "FLOAT in [" + range[0] + " - " + range[1] + "]"};
 }
+
+CLI::Validator seconds_from(double least) { return from_to("seconds", least, most_seconds); }
 
 constexpr const char* list_picture_option = "--list-picture";
 
@@ -206,10 +209,13 @@ void declare_what(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"lines", "points", "lines,points"}));
     value(app, cast_option("--transparent"), o.transparent)->check(CLI::IsMember({"keep", "skip"}));
     value(app, cast_option("--backdrop"), o.backdrop)->check(CLI::IsMember({"keep"}));
-    value(app, cast_option("--fov"), o.view_angle)->check(CLI::Range(0.001, 179.999));
+    value(app, cast_option("--fov"), o.view_angle)->check(from_to("degrees", 0.001, 179.999));
 }
 
 void declare_run(CLI::App& app, Options& o) {
+    value(app, cast_option("--pretend"), o.pretend)
+        ->check(CLI::IsMember({"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "2.0", "2.1"}));
+    flag(app, cast_option("--direct3d"), o.direct3d);
     flag(app, cast_option("--headless"), o.headless);
     flag(app, cast_option("--quit"), o.quit);
     value(app, cast_option("--timeout"), o.timeout_seconds)->check(seconds_from(0.001));
@@ -310,7 +316,8 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         return Parsed::run;
     }
     if (options.output.empty()) {
-        options.output = std::filesystem::path(options.program[0]).filename().string() +
+        const std::filesystem::path program = shown_program(options);
+        options.output = (is_wine(options) ? program.stem() : program).string() +
                          (options.captures == 1 ? ".exr" : ".%f.exr");
     }
     if (const std::string trouble = settle_mesh(options); !trouble.empty()) {
@@ -345,6 +352,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {cast_option("GLCAST_TRANSPARENT").variable, o.transparent},
         {cast_option("GLCAST_BACKDROP").variable, o.backdrop},
         {cast_option("GLCAST_FOV").variable, o.view_angle > 0 ? in_digits(o.view_angle) : ""},
+        {cast_option("GLCAST_PRETEND").variable, o.pretend},
         {cast_option("GLCAST_QUIT").variable, o.quit ? "1" : ""},
         {cast_option("GLCAST_MAX_SECONDS").variable, o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
         {cast_option("GLCAST_VERBOSE").variable, o.verbose ? "1" : ""},
