@@ -91,7 +91,7 @@ constexpr const char* about_gap =
 constexpr const char* about_fit =
     "The paper's error looks from the original to the level alone. The fit did so too until its vertices "
     "ran away where no sample held them (docs/design/method.md, \"Levels of detail\");\nnow it judges both ways. At "
-    "100 edges that costs the paper's error up to a fifth (cubes 160 at 250 edges: 29 %), and gains the "
+    "100 edges that costs the paper's error up to a ninth (cubes 160 at 250 edges: 14 %), and gains the "
     "other way: the original had 0.0568 "
     "(0.0809), contour 160 0.0406 (0.0537),\ncubes 160 0.0588 (0.0568). Tried without gain: less weight for "
     "the way back (0.2 instead of 0.5) leaves the original at 0.0632 (0.0534), cubes 160 at 0.0590 "
