@@ -8,8 +8,10 @@ add_library(glcast_capture_file STATIC
     exr_compress.cpp exr_compress.h
     exr_header.cpp exr_header.h
     output_file.cpp output_file.h)
-target_link_libraries(glcast_capture_file PUBLIC glcast_options ${GLCAST_ZLIB_STATIC})
-target_link_options(glcast_capture_file INTERFACE LINKER:--exclude-libs,libz.a)
+target_link_libraries(glcast_capture_file PUBLIC $<BUILD_INTERFACE:glcast_options> glcast_view
+    $<BUILD_INTERFACE:${GLCAST_ZLIB_STATIC}> $<INSTALL_INTERFACE:ZLIB::ZLIB>)
+target_link_options(glcast_capture_file INTERFACE $<BUILD_INTERFACE:LINKER:--exclude-libs,libz.a>)
+glcast_package(glcast_capture_file HEADERS capture_file.h)
 set_target_properties(glcast_capture_file PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 # tinyexr is not ours: no warnings from it, and no assert may end the host program.
 set_source_files_properties(exr_compress.cpp PROPERTIES COMPILE_OPTIONS "-w"

@@ -69,6 +69,13 @@ inline constexpr CastOption cast_options[] = {
      "Field of view from bottom to top, in degrees, of a program that hands over clip coordinates "
      "(default: 45, with a warning)",
      "degrees, more than 0 and less than 180"},
+    {"--pretend", "GLCAST_PRETEND", "1.5",
+     "Tell PROGRAM of this version of OpenGL (1.0 to 2.1) and of no shaders: some draw without them then",
+     "a version of OpenGL, 1.0 to 1.5, 2.0 or 2.1", "../guide/limits.md"},
+    {"--direct3d", "", "",
+     "Of Wine: let Direct3D 8 and 9 draw by fixed functions (by itself with --quit or --headless, where "
+     "nothing else is drawn)",
+     "", "../guide/limits.md"},
     {"--headless", "", "", "Run under an X server of its own, with software GL", ""},
     {"--quit", "GLCAST_QUIT", "", "End the program after the capture", "0 or 1"},
     {"--timeout", "", "SECONDS",
@@ -86,7 +93,7 @@ inline constexpr CastOption cast_options[] = {
     {"", "GLCAST_LIBRARY", "FILE", "The library that glcast-run preloads, in place of its own",
      "a file name"},
     {"", "GLCAST_SHADERS", "0", "Peel by slabs, as if the driver had no shaders", "0 or 1"},
-    {"", "GLCAST_MASK", "float,fbo,glsl", "As if the driver lacked these",
+    {"", "GLCAST_MASK", "float,fbo,glsl,queries", "As if the driver lacked these",
      "float, fbo or glsl, with commas between"},
     {"", "GLCAST_REPLAY", "calls", "Each recorded call is made again in each replay", "arrays or calls"},
     {"", "GLCAST_READ_ENDS", "1", "glReadPixels, glFlush and glFinish end a frame too", "0 or 1"},

@@ -33,13 +33,17 @@ if(CMAKE_CXX_COMPILER_LAUNCHER)
     list(APPEND launchers -DCMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER} -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 set(GLCAST_I386_BUILD ${PROJECT_BINARY_DIR}/i386)
+set(programs)
+if(GLCAST_TESTS)
+    set(programs i386_programs) # built where they cannot run, too
+endif()
 ExternalProject_Add(glcast_i386
     SOURCE_DIR ${PROJECT_SOURCE_DIR}
     BINARY_DIR ${GLCAST_I386_BUILD}
     PREFIX ${PROJECT_BINARY_DIR}/i386-steps
-    CMAKE_ARGS -DCMAKE_TOOLCHAIN_FILE=${PROJECT_SOURCE_DIR}/cmake/i386.cmake -DGLCAST_LIBRARY_ALONE=ON -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
+    CMAKE_ARGS -DCMAKE_TOOLCHAIN_FILE=${PROJECT_SOURCE_DIR}/cmake/i386.cmake -DGLCAST_LIBRARY_ALONE=ON -DGLCAST_TESTS=${GLCAST_TESTS} -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
         -DCMAKE_CXX_FLAGS_RELEASE=${CMAKE_CXX_FLAGS_RELEASE} -DGLCAST_GL_XML=${GLCAST_GL_XML} ${launchers}
-    BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target glcast_preload
+    BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target glcast_preload ${programs}
     BUILD_ALWAYS ON
     BUILD_BYPRODUCTS ${GLCAST_I386_BUILD}/shim/preload/libglcast.so
     INSTALL_COMMAND ""
@@ -50,6 +54,9 @@ glcast_preload_link(lib32 ${GLCAST_I386_BUILD}/shim/preload/libglcast.so glcast_
 add_dependencies(glcast_i386_place glcast_i386)
 add_dependencies(glcast_lib32_place glcast_i386)
 install(FILES ${GLCAST_I386_BUILD}/shim/preload/libglcast.so DESTINATION lib/i386-linux-gnu/glcast COMPONENT i386)
-install(CODE "file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast\")
+install(CODE "if(CMAKE_INSTALL_DO_STRIP)
+    execute_process(COMMAND ${CMAKE_STRIP} \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/i386-linux-gnu/glcast/libglcast.so\")
+endif()
+file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast\")
 file(CREATE_LINK ../../lib/i386-linux-gnu/glcast/libglcast.so \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib32/glcast/libglcast.so\" SYMBOLIC)"
     COMPONENT i386)

@@ -1,5 +1,24 @@
-# find_package(glcast): glcast::reconstruct (captured images to mesh), glcast::mesh (checks), glcast::view (box, views, images).
+# find_package(glcast): glcast::reconstruct (captured images to mesh), glcast::simplify, glcast::mesh (checks), glcast::view (box, views,
+# images). find_package(glcast COMPONENTS pipeline): also glcast::pipeline (capture file to levels and their files), glcast::io (readers
+# and writers), glcast::texture, glcast::deviation and glcast::progressive.
 include(CMakeFindDependencyMacro)
 find_dependency(glm)
 find_dependency(TBB)
+if("pipeline" IN_LIST glcast_FIND_COMPONENTS)
+    find_dependency(ZLIB)
+    find_dependency(embree 3)
+    find_dependency(TinyGLTF)
+    find_dependency(nlohmann_json)
+    find_dependency(meshoptimizer)
+    find_dependency(PkgConfig)
+    pkg_check_modules(IMATH REQUIRED QUIET IMPORTED_TARGET Imath)
+    pkg_check_modules(OPENMESH REQUIRED QUIET IMPORTED_TARGET openmesh)
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/glcast-targets.cmake)
+set(glcast_pipeline_FOUND TRUE)
+foreach(component IN LISTS glcast_FIND_COMPONENTS)
+    if(glcast_FIND_REQUIRED_${component} AND NOT glcast_${component}_FOUND)
+        set(glcast_FOUND FALSE)
+        set(glcast_NOT_FOUND_MESSAGE "glcast has no component ${component}: there is pipeline")
+    endif()
+endforeach()

@@ -7,6 +7,7 @@
 
 #include "capture/output_name.h"
 #include "capture/reference_views.h"
+#include "shim/preload/masked_faces.h"
 #include "shim/preload/status.h"
 
 namespace glcast::preload {
@@ -18,7 +19,8 @@ struct Facts {
     const Group& group;
     const Options& options;
     const StencilPlan& stencil;
-    long cuts; ///< draws that cut solids in the depth buffer
+    long cuts;   ///< draws that cut solids in the depth buffer
+    long masked; ///< triangles that only hide what is behind them (masked_faces.h)
 };
 
 /// What is cast in another way than the program draws it.
@@ -49,13 +51,18 @@ constexpr Remark remarks[] = {
      }},
     {"a draw that a stencil test keeps to places which other views cannot tell: cast whole",
      [](const Facts& f) { return f.stencil.unfollowed; }},
+    {"a draw under a stencil test of which nobody could ask whether it is an outline or a decal (occlusion queries "
+     "tell): cast as neither",
+     [](const Facts& f) { return f.stencil.unanswered; }},
+    {"triangles drawn into the depth buffer alone, beside others with colours: not cast",
+     [](const Facts& f) { return f.masked; }},
     {"a draw of vertices with a w of their own and no projection: cast as it stands in the picture",
      [](const Facts& f) { return long(f.group.with_own_w); }},
 };
 
 } // namespace
 
-CaptureJob::CaptureJob(const FrameReplay& of, const Options& with, const CastWindow& in, long frame,
+CaptureJob::CaptureJob(FrameReplay& of, const Options& with, const CastWindow& in, long frame,
                        const CapturePlan& by)
     : replay(of), options(with), window(in), number(frame), plan(by), group(by.candidate.group) {}
 
@@ -76,7 +83,8 @@ CastResult CaptureJob::run() {
 
 std::map<std::string, long> CaptureJob::not_understood() const {
     std::map<std::string, long> all = replay.not_understood(plan.candidate);
-    const Facts facts{group, options, plan.stencil_plan(), cutting_draws(replay.all_scenes(), group)};
+    const Facts facts{group, options, plan.stencil_plan(), cutting_draws(replay.all_scenes(), group),
+                      masked_beside(replay.gl, replay.parts_of(plan.candidate), group)};
     for (const Remark& remark : remarks) {
         const long draws = remark.draws(facts);
         if (draws == 0) continue;
@@ -125,7 +133,7 @@ CastResult CaptureJob::write(const DrawFunction& draw, const CaptureInfo& info, 
     if (!writer.error().empty()) return failure(writer.error());
     const EngineReport report = run_capture(replay.gl, draw, engine, [&](ViewImage&& image) {
         replay.patience.image_is_done(image.view);
-        return writer.add(std::move(image));
+        return writer.add(image);
     });
     if (!writer.error().empty()) return failure(writer.error());
     if (!report.ok) return failure(report.error);
@@ -159,7 +167,7 @@ CastResult CaptureJob::write_references(CaptureInfo info, const std::string& pat
         info.from_capture = rotation;
         info.eye.reset();
         info.seen_places.clear();
-        const CastResult result = write(draw, info, engine, reference_name(path, ++count));
+        CastResult result = write(draw, info, engine, reference_name(path, ++count));
         if (result.outcome != CastOutcome::captured) return result;
     }
     return captured;

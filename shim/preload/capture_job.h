@@ -12,7 +12,7 @@ namespace glcast::preload {
 class CaptureJob {
   public:
     /// `plan` has a box. All must outlive it.
-    CaptureJob(const FrameReplay& replay, const Options& options, const CastWindow& window, long number,
+    CaptureJob(FrameReplay& replay, const Options& options, const CastWindow& window, long number,
                const CapturePlan& plan);
 
     /// Captured, or failed with a line.
@@ -25,7 +25,7 @@ class CaptureJob {
                      const std::string& path) const;
     CastResult write_references(CaptureInfo info, const std::string& path, CastResult captured) const;
 
-    const FrameReplay& replay;
+    FrameReplay& replay;
     const Options& options;
     const CastWindow& window;
     const long number;

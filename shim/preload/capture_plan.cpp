@@ -56,7 +56,7 @@ void CapturePlan::follow_stencil() {
     for (const ScenePart& part : replay.parts_of(candidate)) {
         StencilPlan of = plan_stencil(part.scene, part.group);
         judge(replay.gl, part.frame, part.scene, part.group, of);
-        plan.kept += of.kept, plan.unfollowed += of.unfollowed;
+        plan.kept += of.kept, plan.unfollowed += of.unfollowed, plan.unanswered += of.unanswered;
     }
     engine.stencil = plan.kept > 0 ? &stencil : nullptr;
 }

@@ -15,6 +15,7 @@ Census& Census::operator+=(const Census& other) {
     points += other.points;
     pixels += other.pixels;
     shaders += other.shaders;
+    told_of_older |= other.told_of_older;
     if (!other.refused.empty()) refused = other.refused;
     if (!other.no_such_group.empty()) no_such_group = other.no_such_group;
     if (!other.other_windows.empty()) other_windows = other.other_windows;
@@ -67,8 +68,10 @@ std::string advice(const Census& seen) {
     const std::string more = strokes(seen),
                       kinds = seen.lines > 0 && seen.points > 0 ? "lines and points" : more;
     if (seen.shaders > 0)
-        return "it draws with shaders of its own (GLSL or ARB programs): only fixed-function drawing can be "
-               "cast" +
+        return "it draws with shaders of its own (GLSL or ARB programs)" +
+               std::string(seen.told_of_older ? ", whatever it is told" : "") +
+               ": only fixed-function drawing can be cast" +
+               (seen.told_of_older ? "" : "; --pretend 1.5 lets it draw without them if it can") +
                (more.empty() ? "" : "; --include " + more + " casts its " + kinds);
     if (!seen.refused.empty()) return {};
     if (seen.masked > 0 && seen.masked == seen.solid)

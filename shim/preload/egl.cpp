@@ -2,9 +2,11 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <optional>
 #include <vector>
 
 #include "shim/preload/lookup.h"
+#include "shim/preload/pretence.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/stub.h"
@@ -120,10 +122,16 @@ GLCAST_EXPORT __eglMustCastToProperFunctionPointerType eglGetProcAddress(const c
 GLCAST_EXPORT EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext share,
                                           const EGLint* attributes) {
     const Outermost outermost;
-    const EGLContext context = real().eglCreateContext(display, config, share, attributes);
+    const bool desktop = real().eglQueryAPI() == EGL_OPENGL_API;
+    std::optional<std::vector<int>> refused;
+    if (desktop && outermost)
+        refused =
+            refused_attributes(attributes, EGL_NONE, EGL_CONTEXT_MAJOR_VERSION, EGL_CONTEXT_MINOR_VERSION);
+    const EGLContext context =
+        real().eglCreateContext(display, config, share, refused ? refused->data() : attributes);
     if (!context || !outermost) return context;
     std::function<void*()> make_sibling;
-    if (real().eglQueryAPI() == EGL_OPENGL_API) {
+    if (desktop) {
         make_sibling = [=, copy = copy_attributes(attributes)]() -> void* {
             const DesktopApi api;
             return real().eglCreateContext(display, config, context, copy.data());

@@ -3,9 +3,10 @@
 
 Usage: gen_stubs.py GEN_GL_TABLE_DIR GL_XML OUT_DIR PARTS
 Writes OUT_DIR/preload/stubs_<i>.cpp (stubs and thunks), idle_table.cpp (the first state of the table: every entry a thunk)
-and stub_list.cpp (names in GlCall order beside the stubs).
+and stub_list.cpp (stubs and core versions in GlCall order).
 """
 import sys
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
@@ -20,6 +21,8 @@ MACROS = {
     **dict.fromkeys(["ReadPixels", "ReadnPixels", "ReadnPixelsARB", "GetTexImage", "GetnTexImage", "GetnTexImageARB",
                      "GetTextureImage"], "GLCAST_READ_STUB"),
     "DrawBuffer": "GLCAST_DRAW_BUFFER_STUB",
+    **dict.fromkeys(["GetString", "GetStringi", "GetBooleanv", "GetDoublev", "GetFloatv", "GetInteger64v",
+                     "GetIntegerv"], "GLCAST_TOLD_STUB"),
 }
 
 
@@ -43,13 +46,28 @@ def write_idle_table(out, commands):
         "\n} // namespace thunk\n\nconstinit GlTable idle = {\n" + members + "\n};\n\n} // namespace glcast::preload\n")
 
 
-def write_stub_list(out, commands):
+def core_versions(xml_path):
+    """Ten times the version of OpenGL that brought each command, by its full name."""
+    versions = {}
+    for feature in ET.parse(xml_path).getroot().iter("feature"):
+        if feature.get("api") != "gl":
+            continue
+        number = round(10 * float(feature.get("number")))
+        for require in feature.findall("require"):
+            for command in require.findall("command"):
+                name = command.get("name")
+                versions[name] = min(number, versions.get(name, number))
+    return versions
+
+
+def write_stub_list(out, commands, versions):
     declarations = "\n".join(f"void gl{c.name}_stub() __asm__(\"gl{c.name}\");" for c in commands)
     entries = "\n".join(f"    gl{c.name}_stub," for c in commands)
+    numbers = "\n".join(f"    {versions.get('gl' + c.name, 255)}," for c in commands)
     (out / "stub_list.cpp").write_text(
         GENERATED + '#include "shim/preload/stub.h"\n\nextern "C" {\n' + declarations +
         "\n}\n\nnamespace glcast::preload {\n\nconst GlProc stubs[gl_call_count] = {\n" + entries +
-        "\n};\n\n} // namespace glcast::preload\n")
+        "\n};\n\nconst std::uint8_t core_versions[gl_call_count] = {\n" + numbers + "\n};\n\n} // namespace glcast::preload\n")
 
 
 def main():
@@ -58,7 +76,7 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     write_parts(out, commands, int(sys.argv[4]))
     write_idle_table(out, commands)
-    write_stub_list(out, commands)
+    write_stub_list(out, commands, core_versions(sys.argv[2]))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shim/preload/lookup.h"
+#include "shim/preload/pretence.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
@@ -47,7 +48,10 @@ namespace {
     X(glXSwapBuffersMscOML)                                                                                  \
     X(glXCopySubBufferMESA)                                                                                  \
     X(glXWaitGL)                                                                                             \
-    X(glXUseXFont)
+    X(glXUseXFont)                                                                                           \
+    X(glXQueryExtensionsString)                                                                              \
+    X(glXGetClientString)                                                                                    \
+    X(glXQueryServerString)
 
 // Asked for, not interposed.
 #define GLCAST_GLX_QUERIES(X)                                                                                \
@@ -169,6 +173,8 @@ std::optional<std::vector<int>> copy_attributes(const int* attributes) {
     return copy;
 }
 
+constexpr int context_major_version = 0x2091, context_minor_version = 0x2092; // GLX_CONTEXT_.._VERSION_ARB
+
 bool asks_for_es(const std::optional<std::vector<int>>& attributes) {
     constexpr int profile_mask = 0x9126, es_bits = 0x4; // GLX_CONTEXT_PROFILE_MASK_ARB, .._ES_PROFILE_BIT_EXT
     for (std::size_t i = 0; attributes && i + 1 < attributes->size(); i += 2)
@@ -222,6 +228,9 @@ GLCAST_EXPORT GLXContext glXCreateContextAttribsARB(Display* display, GLXFBConfi
     if (!real().glXCreateContextAttribsARB) return nullptr;
     auto copy = copy_attributes(attributes);
     const bool desktop = !asks_for_es(copy);
+    if (desktop)
+        if (auto refused = refused_attributes(attributes, 0, context_major_version, context_minor_version))
+            copy = std::move(refused);
     return make_context(display, share, desktop, [=, copy = std::move(copy)](GLXContext with) {
         return real().glXCreateContextAttribsARB(display, config, with, direct,
                                                  copy ? copy->data() : nullptr);
@@ -319,6 +328,20 @@ GLCAST_EXPORT void glXUseXFont(Font font, int first, int count, int list) {
     if (shadows_calls()) say_once("lists made by glXUseXFont are not recorded (they hold text)");
     real().glXUseXFont(font, first, count, list);
     if (shadows_calls()) lists_made_elsewhere(GLuint(list), count);
+}
+
+GLCAST_EXPORT const char* glXQueryExtensionsString(Display* display, int screen) {
+    return told_window_extensions(real().glXQueryExtensionsString(display, screen));
+}
+
+GLCAST_EXPORT const char* glXGetClientString(Display* display, int name) {
+    const char* text = real().glXGetClientString(display, name);
+    return name == GLX_EXTENSIONS ? told_window_extensions(text) : text;
+}
+
+GLCAST_EXPORT const char* glXQueryServerString(Display* display, int screen, int name) {
+    const char* text = real().glXQueryServerString(display, screen, name);
+    return name == GLX_EXTENSIONS ? told_window_extensions(text) : text;
 }
 
 } // extern "C"

@@ -6,6 +6,7 @@ void HiddenFaces::enter(const std::array<GLfloat, 4>& background) {
     is_entered = true;
     gl.PushAttrib(GL_ENABLE_BIT | GL_CURRENT_BIT | GL_COLOR_BUFFER_BIT);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DrawBuffer(GL_COLOR_ATTACHMENT0); // of ours: the program may have masked colours by GL_NONE
     for (const GLenum capability :
          {GL_LIGHTING, GL_TEXTURE_1D, GL_TEXTURE_2D, GL_BLEND, GL_ALPHA_TEST, GL_COLOR_LOGIC_OP})
         gl.Disable(capability);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "shim/preload/elf_file.h"
+#include "shim/preload/pretence.h"
 #include "shim/preload/real.h"
 #include "shim/preload/stub.h"
 #include "shim/preload/window_entries.h"
@@ -67,6 +68,7 @@ bool in_osmesa(const void* code) {
 
 GlProc ours_instead(const char* name, GlProc real, const void* caller) {
     if (!real || !name) return real;
+    if (hides_entry(name) && !in_gl_library(caller)) return nullptr;
     GlProc ours = find_ours(name);
     return ours && !in_gl_library(caller) ? ours : real;
 }

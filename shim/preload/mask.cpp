@@ -47,8 +47,10 @@ const GLubyte* APIENTRY get_string(GLenum name) {
     return reinterpret_cast<const GLubyte*>(masked->extensions.c_str());
 }
 
-enum When : unsigned { each_time = 1, no_framebuffers = 2 };
-constexpr const char* when_names[] = {"always", "fbo"};
+void APIENTRY no_bits(GLenum, GLenum, GLint* value) { *value = 0; }
+
+enum When : unsigned { each_time = 1, no_framebuffers = 2, no_queries = 4 };
+constexpr const char* when_names[] = {"always", "fbo", "queries"};
 
 using G = GlTable;
 
@@ -58,6 +60,7 @@ constexpr OverrideRule rules[] = {
      drop(calls::framebuffer_bindings + only<&G::GenFramebuffers, &G::GenRenderbuffers, &G::BindRenderbuffer,
                                              &G::BindRenderbufferEXT, &G::CheckFramebufferStatus>),
      "the entry points are there, as glvnd has them, and do nothing"},
+    {no_queries, replace<no_bits>(only<&G::GetQueryiv>), "no counter of samples"},
 };
 
 } // namespace
@@ -69,7 +72,7 @@ constinit const OverrideRules mask_rules = {"A driver that lacks something",
 const GlTable& masked_table(const GlTable& real, const Mask& mask) {
     if (masked || !mask.any()) return masked ? masked->table : real;
     masked = new Masked{real, real.GetString, mask, {}};
-    override_calls(masked->table, real, rules, each_time | (mask.framebuffers ? no_framebuffers : 0u));
+    override_calls(masked->table, real, rules, each_time | (mask.framebuffers ? no_framebuffers : 0u) | (mask.queries ? no_queries : 0u));
     return masked->table;
 }
 

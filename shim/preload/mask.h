@@ -9,7 +9,8 @@ struct Mask {
     bool floats = false; ///< float: no floating-point colour targets
     bool framebuffers =
         false; ///< fbo: no framebuffer objects, though the entry points are there, as glvnd has them
-    bool any() const { return floats || framebuffers; }
+    bool queries = false; ///< queries: none counts samples
+    bool any() const { return floats || framebuffers || queries; }
 };
 
 extern const OverrideRules mask_rules;

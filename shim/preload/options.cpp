@@ -122,6 +122,8 @@ bool parse_mask(const std::string& text, Options& options) {
             options.mask.floats = true;
         else if (part == "fbo")
             options.mask.framebuffers = true;
+        else if (part == "queries")
+            options.mask.queries = true;
         else if (part == "glsl")
             options.use_shaders = false;
         else
@@ -129,6 +131,17 @@ bool parse_mask(const std::string& text, Options& options) {
         at = end + 1;
     }
     return true;
+}
+
+/// As they were published.
+constexpr std::pair<const char*, GlVersion> pretended_versions[] = {
+    {"1.0", {1, 0}}, {"1.1", {1, 1}}, {"1.2", {1, 2}}, {"1.3", {1, 3}},
+    {"1.4", {1, 4}}, {"1.5", {1, 5}}, {"2.0", {2, 0}}, {"2.1", {2, 1}}};
+
+bool parse_pretend(const std::string& text, Options& options) {
+    for (const auto& [name, version] : pretended_versions)
+        if (text == name) options.pretend = version;
+    return options.pretend.has_value();
 }
 
 /// How each variable beside GLCAST_OUT is read; capture/option_table.h says what it may hold.
@@ -198,6 +211,7 @@ constexpr Variable variables[] = {
      }},
     {cast_option("GLCAST_READ_ENDS"),
      [](const std::string& t, Options& o) { return parse_switch(t, o.read_ends); }},
+    {cast_option("GLCAST_PRETEND"), parse_pretend},
     {cast_option("GLCAST_QUIT"), [](const std::string& t, Options& o) { return parse_switch(t, o.quit); }},
 };
 

@@ -1,5 +1,6 @@
 // What the environment asks for: each option of glcast-run is a variable.
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <optional>
@@ -16,6 +17,12 @@ enum class FrameMatrix {
     base,      ///< the base modelview's inverse; refused where it is no similarity
     eye,       ///< eye space
     given,     ///< 16 numbers, column by column as in glLoadMatrix, from eye space to the capture frame
+};
+
+/// Of OpenGL, not of OpenGL ES.
+struct GlVersion {
+    int major = 0, minor = 0;
+    auto operator<=>(const GlVersion&) const = default;
 };
 
 /// What is cast beside filled primitives.
@@ -67,13 +74,14 @@ struct Options {
     int reference_n = 0; ///< GLCAST_REFERENCE_N: their resolution; 0: that of the capture
     std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a
                         ///< part of its title; empty: the one that shows most
-    Mask mask;          ///< GLCAST_MASK: float, fbo, glsl with commas between: as if the driver lacked these
+    Mask mask;          ///< GLCAST_MASK: float, fbo, glsl, queries with commas between: as if the driver lacked these
     std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
     double most_seconds = 0;       ///< GLCAST_MAX_SECONDS: a cast that takes longer is given up; 0: no limit
     bool prepare_replay =
         true;               ///< GLCAST_REPLAY: calls: each is made again in each replay, as it was recorded
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
+    std::optional<GlVersion> pretend; ///< GLCAST_PRETEND: the most that the program is told of (pretence.h)
     std::string error;      ///< one line; not armed then
 };
 

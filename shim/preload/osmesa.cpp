@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shim/preload/lookup.h"
+#include "shim/preload/pretence.h"
 #include "shim/preload/real.h"
 #include "shim/preload/session.h"
 #include "shim/preload/status.h"
@@ -153,6 +154,9 @@ GLCAST_EXPORT OSMesaContext OSMesaCreateContextExt(GLenum format, GLint depth, G
 GLCAST_EXPORT OSMesaContext OSMesaCreateContextAttribs(const int* attributes, OSMesaContext share) {
     if (!real().OSMesaCreateContextAttribs) return nullptr;
     std::vector<int> copy;
+    const auto refused =
+        refused_attributes(attributes, 0, OSMESA_CONTEXT_MAJOR_VERSION, OSMESA_CONTEXT_MINOR_VERSION);
+    if (refused) attributes = refused->data();
     for (const int* at = attributes; at && *at; at += 2) copy.insert(copy.end(), {at[0], at[1]});
     copy.insert(copy.end(), {0, 0});
     const auto format = [](std::vector<int>& list) -> int* {

@@ -124,7 +124,8 @@ class Analysis final : public DrawGate {
         std::array<GLint, 4> scissor{};
         const bool scissored = inner.IsEnabled(GL_SCISSOR_TEST);
         if (scissored) inner.GetIntegerv(GL_SCISSOR_BOX, scissor.data());
-        const GLint buffer = get_int(inner, GL_DRAW_BUFFER);
+        if (get_int(inner, GL_DRAW_BUFFER) == GL_NONE) return;
+        const GLint buffer = shown_buffer();
         for (Group& group : scene.groups)
             if (group.framebuffer == framebuffer && group.draw_buffer == buffer &&
                 (!scissored || contains(scissor, group.viewport)))
@@ -246,7 +247,18 @@ class Analysis final : public DrawGate {
     bool writes_colour() const {
         GLboolean mask[4] = {};
         inner.GetBooleanv(GL_COLOR_WRITEMASK, mask);
-        return mask[0] || mask[1] || mask[2];
+        return (mask[0] || mask[1] || mask[2]) && get_int(inner, GL_DRAW_BUFFER) != GL_NONE;
+    }
+
+    /// glDrawBuffer(GL_NONE) is a mask of colours: the framebuffer's picture is in the buffer that had them before,
+    /// or gets them next.
+    GLint shown_buffer() {
+        const GLint buffer = get_int(inner, GL_DRAW_BUFFER);
+        if (buffer != GL_NONE) return shown_buffers[framebuffer] = buffer;
+        const auto known = shown_buffers.find(framebuffer);
+        if (known != shown_buffers.end()) return known->second;
+        if (framebuffer != 0) return GL_COLOR_ATTACHMENT0;
+        return get_int(inner, GL_DOUBLEBUFFER, 1) ? GL_BACK : GL_FRONT;
     }
 
     /// By the texture unit that is active, which in a frame with one is that one.
@@ -285,7 +297,7 @@ class Analysis final : public DrawGate {
                    GLint depth_function, const glm::dmat4& modelview) {
         Group now;
         now.framebuffer = framebuffer;
-        now.draw_buffer = get_int(inner, GL_DRAW_BUFFER);
+        now.draw_buffer = shown_buffer();
         now.viewport = viewport;
         inner.GetFloatv(GL_COLOR_CLEAR_VALUE, now.background.data());
         now.projection = sight.projection;
@@ -436,6 +448,7 @@ class Analysis final : public DrawGate {
 
     Sights& sights;
     const Questions& questions;
+    std::map<GLuint, GLint> shown_buffers; ///< of each framebuffer, what glDrawBuffer chose last but GL_NONE
     GLuint framebuffer = 0, read_framebuffer = 0;
     std::optional<glm::dmat4> pushed; ///< at the first push since the last draw
     bool hands_over_clip = false;     ///< no matrix stands between the last draw's vertices and the picture

@@ -75,7 +75,8 @@ struct Attribute : ForGate {
 struct Colour : ForGate {
     static constexpr const char* what = "left out of draws in one colour";
     static void call(auto below, auto... arguments) {
-        if (!gate().fixes_colour()) below(arguments...);
+        if (!gate().fixes_colour()) return below(arguments...);
+        gate().late_colour = [=] { below(arguments...); }; // pointers are the frame's
     }
 };
 
@@ -106,6 +107,7 @@ void APIENTRY end() {
     if (!kept) return;
     gate().inner.End();
     gate().drawn();
+    if (const auto set = std::exchange(gate().late_colour, nullptr)) set(); // it goes on to be the current one
 }
 
 /// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first

@@ -1,6 +1,7 @@
 // A table that numbers the draws which pass through it, and lets through those that its owner keeps.
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,7 @@ class DrawGate {
 
     // Of the glBegin that is open; the table's functions keep these.
     bool swallowing = false;
+    std::function<void()> late_colour; ///< the last that was swallowed while colours were fixed
     GLenum mode = 0;
     long vertices = 0;
     bool gives_w = false; ///< some vertex had four coordinates

@@ -9,8 +9,8 @@ namespace glcast::preload {
 namespace {
 
 using G = GlTable;
-enum When : unsigned { each_time = 1, all_depths = 2 };
-constexpr const char* when_names[] = {"always", "depths are read"};
+enum When : unsigned { each_time = 1, all_depths = 2, nearest_depths = 4 };
+constexpr const char* when_names[] = {"always", "depths are read", "the nearest depths are"};
 constexpr GLbitfield own_groups = GL_VIEWPORT_BIT | GL_SCISSOR_BIT | GL_STENCIL_BUFFER_BIT;
 
 constexpr OverrideRule rules[] = {
@@ -29,6 +29,7 @@ constexpr OverrideRule rules[] = {
     {each_time, handle<SaveWithout<PictureTable, own_groups>>(only<&G::PushAttrib>),
      "the picture's state stays as it is"},
     {all_depths, drop(only<&G::DepthMask>), "whatever is drawn has a depth"},
+    {nearest_depths, drop(only<&G::DepthFunc>), "what is in front shows"},
 };
 
 } // namespace
@@ -40,7 +41,8 @@ constinit const OverrideRules picture_rules = {
 PictureTable::PictureTable(const GlTable& gl, PictureFaces faces, PictureDepths depths)
     : real(gl), culls(faces == PictureFaces::program), picture(gl) {
     table_owner<PictureTable> = this;
-    override_calls(picture, real, rules, each_time | (depths == PictureDepths::all ? all_depths : 0u));
+    override_calls(picture, real, rules, each_time | (depths != PictureDepths::program ? all_depths : 0u) |
+                       (depths == PictureDepths::nearest ? nearest_depths : 0u));
 }
 
 PictureTable::~PictureTable() { table_owner<PictureTable> = nullptr; }
@@ -121,7 +123,7 @@ Thumbnail draw_thumbnail(const GlTable& gl, const DrawFunction& draw, const std:
 }
 
 DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
-                         bool program_culls, int size) {
+                         bool program_culls, int size, PictureDepths depths) {
     DepthPicture picture;
     const GlTable calls = with_framebuffer_calls(gl);
     const Target target(calls, size, false);
@@ -133,7 +135,8 @@ DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std:
     prepare(calls, target, sides.width, sides.height, false);
     gl.Disable(GL_CULL_FACE);
     const auto faces = program_culls ? PictureFaces::program : PictureFaces::all;
-    draw(PictureTable(calls, faces, PictureDepths::all).table());
+    if (depths == PictureDepths::nearest) gl.DepthFunc(GL_LESS);
+    draw(PictureTable(calls, faces, depths).table());
     gl.Finish();
     target.bind();
     target.read_depth(picture.depth);

@@ -23,7 +23,8 @@ struct Thumbnail {
 };
 
 enum class PictureFaces { program, all };  ///< as the program culls; or whatever it culls
-enum class PictureDepths { program, all }; ///< written where the program does; or by all that is drawn
+/// Written where the program does; or by all that is drawn; or so, and what is in front shows whatever its test.
+enum class PictureDepths { program, all, nearest };
 
 /// What the program draws, but where to and what it wipes away. One at a time on a thread.
 class PictureTable {
@@ -60,8 +61,8 @@ struct DepthPicture {
 };
 
 /// As draw_thumbnail, and whatever is drawn writes its depth. `culls`: as the program culls; else all faces
-/// are drawn.
+/// are drawn. `depths` is not PictureDepths::program.
 DepthPicture draw_depths(const GlTable& gl, const DrawFunction& draw, const std::array<GLint, 4>& viewport,
-                         bool culls, int size);
+                         bool culls, int size, PictureDepths depths = PictureDepths::all);
 
 } // namespace glcast::preload

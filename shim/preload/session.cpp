@@ -5,10 +5,12 @@
 #include "shim/preload/front_buffer.h"
 #include "shim/preload/host_thread.h"
 #include "shim/preload/own_stack.h"
+#include "shim/preload/pretence.h"
 #include "shim/preload/real.h"
 #include "shim/preload/status.h"
 #include "shim/preload/stub.h"
 #include "shim/preload/watcher.h"
+#include "shim/preload/wine.h"
 
 namespace glcast::preload {
 namespace {
@@ -28,6 +30,7 @@ std::size_t bytes_for_recording(std::size_t mebibytes) {
 
 Session* make_session() {
     auto* fresh = new Session;
+    pretending = fresh->seen.told_of_older = fresh->options.pretend && fresh->options.error.empty();
     record::set_memory_limit(bytes_for_recording(fresh->options.memory_mib));
     if (!fresh->options.error.empty()) {
         say("%s (nothing will be captured)", fresh->options.error.c_str());
@@ -108,7 +111,10 @@ void forget_if_unused(Session& s, NativeContext* context) {
     s.contexts.erase(context->handle);
 }
 
-void refuse(Session& s, const std::string& why) {
+void refuse(Session& s, std::string why) {
+    if (why.starts_with("a core profile") && !s.options.pretend)
+        why += is_wine() ? "; where that is Wine's Direct3D, --direct3d lets it draw by fixed functions"
+                         : "; --pretend 1.5 keeps such contexts from it";
     s.seen.refused = why;
     say_once("a frame cannot be recorded: %s (the next one is tried)", why.c_str());
     tell("refused", why);

@@ -11,6 +11,7 @@
 #include "shim/preload/session_state.h"
 #include "shim/preload/start.h"
 #include "shim/preload/status.h"
+#include "shim/preload/wine.h"
 
 namespace glcast::preload {
 namespace {
@@ -182,7 +183,7 @@ bool is_captured_by_a_child() {
     Session* s = session_if_any();
     const std::string program = program_name();
     if (!s || (!s->hooked && !s->settled)) {
-        if (!has_status_file() && is_meant_program() && !is_captured_by_a_child())
+        if (!has_status_file() && is_meant_program() && !is_wine_helper() && !is_captured_by_a_child())
             say("no GL seen in %s: nothing captured", program.c_str());
         return;
     }

@@ -16,6 +16,7 @@
 #include "shim/preload/quiet_write.h"
 #include "shim/preload/standard_error.h"
 #include "shim/preload/start.h"
+#include "shim/preload/wine.h"
 
 namespace glcast::preload {
 namespace {
@@ -114,6 +115,6 @@ void tell(const char* event, const std::string& text) {
     close(file);
 }
 
-std::string program_name() { return program_invocation_short_name; }
+std::string program_name() { return is_wine() ? windows_program() : program_invocation_short_name; }
 
 } // namespace glcast::preload

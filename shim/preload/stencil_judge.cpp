@@ -159,9 +159,14 @@ std::vector<long> count(const GlTable& gl, const Target& target, const record::F
     return counts;
 }
 
+/// glvnd has the entry points in any case: the counter tells.
 bool can_count(const GlTable& gl) {
-    return has_framebuffer_calls(gl) && gl.GenQueries && gl.BeginQuery && gl.EndQuery &&
-           gl.GetQueryObjectuiv && gl.DeleteQueries;
+    if (!has_framebuffer_calls(gl) || !gl.GenQueries || !gl.BeginQuery || !gl.EndQuery || !gl.GetQueryObjectuiv ||
+        !gl.DeleteQueries || !gl.GetQueryiv)
+        return false;
+    GLint bits = 0;
+    gl.GetQueryiv(GL_SAMPLES_PASSED, GL_QUERY_COUNTER_BITS, &bits);
+    return bits > 0;
 }
 
 } // namespace
@@ -173,11 +178,14 @@ constinit const OverrideRules judge_rules = {"A small picture that is counted",
 
 void judge(const GlTable& real, const record::Frame& frame, Scene& scene, int group, StencilPlan& plan) {
     const GlTable gl = with_framebuffer_calls(real);
-    if (plan.questions.empty() || !can_count(gl)) return;
+    if (plan.questions.empty()) return;
+    plan.unanswered = static_cast<long>(plan.questions.size());
+    if (!can_count(gl)) return;
     std::map<std::vector<std::size_t>, std::vector<const StencilQuestion*>> by_marks;
     for (const StencilQuestion& question : plan.questions) by_marks[question.marks].push_back(&question);
     const Target target(gl, picture_size, false);
     if (!target.complete() || by_marks.size() > most_kinds) return;
+    plan.unanswered = 0;
     for (const auto& [marks, questions] : by_marks) {
         std::vector<std::size_t> draws;
         for (const StencilQuestion* question : questions) draws.push_back(question->draw);

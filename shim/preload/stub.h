@@ -6,6 +6,7 @@
 #include <string>
 
 #include "capture/gl/gl_table.h"
+#include "shim/preload/pretence.h"
 #pragma GCC visibility push(hidden) // so that the stubs read `active` and `idle` with no detour over the GOT
 #include "shim/record/record.h"
 #pragma GCC visibility pop
@@ -21,6 +22,9 @@ extern GlTable idle __attribute__((visibility("hidden")));
 
 /// The exported stubs, indexed by GlCall.
 extern const GlProc stubs[gl_call_count] __attribute__((visibility("hidden")));
+
+/// Ten times the version of OpenGL that brought a call (15, 20, ...); 255 where it is of extensions alone.
+extern const std::uint8_t core_versions[gl_call_count] __attribute__((visibility("hidden")));
 
 /// The table to find a call in at its first use: `idle`, with the real function put there from now on, or the
 /// recorder's where the call is shadowed always.
@@ -89,6 +93,18 @@ void flushed() noexcept;
         glcast::preload::draw_buffer_chosen ARGUMENTS;                                                       \
         const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
         (idles ? glcast::preload::idle : glcast::preload::recording_table()).NAME ARGUMENTS;                 \
+    }                                                                                                        \
+    GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
+
+// Versions and extensions, about which the program may be told something else (pretence.h).
+#define GLCAST_TOLD_STUB(RESULT, NAME, PARAMETERS, ARGUMENTS)                                                \
+    extern "C" GLCAST_EXPORT RESULT APIENTRY gl##NAME##_stub PARAMETERS __asm__("gl" #NAME);                 \
+    extern "C" GLCAST_EXPORT RESULT APIENTRY gl##NAME##_stub PARAMETERS {                                    \
+        const bool idles = glcast::record::active.load(std::memory_order_relaxed) == 0;                      \
+        const glcast::GlTable& table = idles ? glcast::preload::idle : glcast::preload::recording_table();   \
+        if (glcast::preload::pretending.load(std::memory_order_relaxed)) [[unlikely]]                        \
+            return glcast::preload::Told{table}.NAME ARGUMENTS;                                              \
+        return table.NAME ARGUMENTS;                                                                         \
     }                                                                                                        \
     GLCAST_THUNK(RESULT, NAME, PARAMETERS, ARGUMENTS)
 

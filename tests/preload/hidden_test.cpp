@@ -45,7 +45,7 @@ TEST_P(HiddenLine, is_cast_in_the_colour_of_the_background) {
 }
 INSTANTIATE_TEST_SUITE_P(Hidden, HiddenLine,
                          testing::Values("mask-outlines", "mask-lines", "equal-outlines", "lit-textured",
-                                         "arrays-lines", "colours-lines"),
+                                         "arrays-lines", "colours-lines", "no-buffer-lines"),
                          [](const auto& info) {
                              std::string name = info.param;
                              std::replace(name.begin(), name.end(), '-', '_');
@@ -61,11 +61,36 @@ TEST(Hidden, lines_are_offered_and_cast_when_asked_for) {
 }
 
 TEST(Hidden, faces_that_get_their_colours_later_have_these) {
-    const CastRun run = cast("depth-first");
-    ASSERT_TRUE(run.capture) << run.outcome.err;
-    EXPECT_NEAR(volume(*run.capture), body, grid * body);
-    EXPECT_EQ(share_of_colour(*run.capture, orange), 1);
-    EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
+    for (const char* way : {"depth-first", "no-buffer-first"}) {
+        const CastRun run = cast(way);
+        ASSERT_TRUE(run.capture) << run.outcome.err;
+        EXPECT_NEAR(volume(*run.capture), body, grid * body);
+        EXPECT_EQ(share_of_colour(*run.capture, orange), 1);
+        EXPECT_TRUE(run.capture->info.not_understood.empty()) << run.outcome.err;
+    }
+}
+
+TEST(Hidden, faces_beside_others_are_counted) {
+    for (const char* way : {"mask-beside", "no-buffer-beside"}) {
+        const CastRun run = cast(way);
+        ASSERT_TRUE(run.capture) << run.outcome.err;
+        EXPECT_NEAR(volume(*run.capture), body, grid * body);
+        EXPECT_EQ(share_of_colour(*run.capture, orange), 1);
+        ASSERT_EQ(run.capture->info.not_understood.size(), 1u) << run.outcome.err;
+        EXPECT_EQ(run.capture->info.not_understood.begin()->second, 12);
+        EXPECT_NE(run.outcome.err.find("beside others with colours: not cast"), std::string::npos)
+            << run.outcome.err;
+    }
+}
+
+/// However the frame is replayed.
+TEST(Hidden, faces_leave_the_colour_that_the_program_set) {
+    for (const char* replay : {"", "calls"}) {
+        const CastRun run = cast("colour-left", {{"GLCAST_REPLAY", replay}});
+        ASSERT_TRUE(run.capture) << run.outcome.err;
+        EXPECT_GT(share_of_colour(*run.capture, glm::vec3(1, 0, 0)), 0.5) << replay;
+        EXPECT_EQ(share_of_colour(*run.capture, white), 0) << replay;
+    }
 }
 
 TEST(Hidden, faces_with_nothing_over_them_are_told_of) {

@@ -180,22 +180,15 @@ int make_mesh(const Options& options) {
 
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer("Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, "
-               "each a file with one mesh.\n"
-               "By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n "
-               "being the samples\n"
-               "of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both "
-               "ways, measured. What asks\n"
-               "for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and "
-               "nothing else.\n"
-               "A level has plain colours by materials where these show it right, else a texture.\n"
-               "Every level is a closed two-manifold and is measured against the full surface, or nothing is "
-               "written.\n"
-               "With --pm all levels come of one run of collapses, without the fit that halves their error, "
-               "and are levels of the\n"
-               "progressive mesh, which goes down to 500 triangles or the coarsest level.\n"
-               "Positions are in the captured model's own units and axes. .off and .3mf keep colours but no "
-               "normals, .stl neither.");
+    app.footer(R"(Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, each a file with one mesh.
+By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n being the samples
+of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both ways, measured. What asks
+for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and nothing else.
+A level has plain colours by materials where these show it right, else a texture.
+Every level is a closed two-manifold and is measured against the full surface, or nothing is written.
+With --pm all levels come of one run of collapses, without the fit that halves their error, and are levels of the
+progressive mesh, which goes down to 500 triangles or the coarsest level.
+Positions are in the captured model's own units and axes. .off and .3mf keep colours but no normals, .stl neither.)");
     app.add_option("capture", options->capture, "capture made by glcast-run (.exr)")->required();
     app.add_option("-o,--output", options->output, "mesh to write: .glb, .obj, .ply, .off, .stl or .3mf")
         ->required();

@@ -183,9 +183,9 @@ int view(Options options) {
 
 Run declare_view(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer("The page is one file: it opens by double-click, and never uses the network. A capture is meshed first, as\n"
-               "glcast mesh does without options. Of several files, each is a level, the one with most triangles level 0.\n"
-               "Sizes: 5 to 12 bytes a triangle, and 0.55 MB for the page itself.");
+    app.footer(R"(The page is one file: it opens by double-click, and never uses the network. A capture is meshed first, as
+glcast mesh does without options. Of several files, each is a level, the one with most triangles level 0.
+Sizes: 5 to 12 bytes a triangle, and 0.55 MB for the page itself.)");
     app.add_option("file", options->files,
                    "mesh (.glb, .obj, .ply, .off, .stl) with the levels beside it, several that are a level "
                    "each, or a capture (.exr)")

@@ -1,6 +1,9 @@
 #include "tools/io/exr_decompress.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include <zlib.h>
@@ -41,16 +44,44 @@ std::vector<char> expand_runs(std::span<const char> chunk, std::size_t size) {
     return bytes;
 }
 
-/// Each byte was stored as its difference from the one before, off by 128; even bytes first, then odd ones.
+/// Each byte was stored as its difference from the one before, off by 128. Eight at a time.
+void undo_differences(std::vector<char>& bytes) {
+    static_assert(std::endian::native == std::endian::little);
+    constexpr std::uint64_t each = 0x0101010101010101, low = 0x7f7f7f7f7f7f7f7f;
+    constexpr std::uint64_t offsets = 0x8000800080008000; // of every other byte one more than of the last
+    const auto plus = [](std::uint64_t a, std::uint64_t b) { // byte by byte, without carries
+        return ((a & low) + (b & low)) ^ ((a ^ b) & ~low);
+    };
+    std::uint64_t before = 0; // the last sum, in every byte
+    std::size_t k = 0;
+    for (; k + 8 <= bytes.size(); k += 8) {
+        std::uint64_t sums;
+        std::memcpy(&sums, &bytes[k], 8);
+        for (const int shift : {8, 16, 32}) sums = plus(sums, sums << shift);
+        sums = plus(sums, before);
+        before = (sums >> 56) * each;
+        sums ^= offsets;
+        std::memcpy(&bytes[k], &sums, 8);
+    }
+    auto sum = static_cast<unsigned char>(before);
+    for (; k < bytes.size(); ++k) {
+        sum = static_cast<unsigned char>(sum + static_cast<unsigned char>(bytes[k]));
+        bytes[k] = char(sum ^ (k % 2 ? 0x80 : 0));
+    }
+}
+
+/// Even bytes come first, then odd ones.
 std::vector<char> undo_filter(std::vector<char> bytes) {
-    unsigned char before = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
-    for (std::size_t k = 1; k < bytes.size(); ++k)
-        bytes[k] =
-            char(before = static_cast<unsigned char>(before + static_cast<unsigned char>(bytes[k]) - 128));
+    undo_differences(bytes);
     std::vector<char> woven(bytes.size());
-    const std::size_t even = (bytes.size() + 1) / 2;
-    for (std::size_t k = 0; k < even; ++k) woven[2 * k] = bytes[k];
-    for (std::size_t k = even; k < bytes.size(); ++k) woven[2 * (k - even) + 1] = bytes[k];
+    const std::size_t odd = bytes.size() / 2;
+    const char *first = bytes.data(), *second = first + (bytes.size() - odd);
+    char* out = woven.data();
+    for (std::size_t k = 0; k < odd; ++k) {
+        out[2 * k] = first[k];
+        out[2 * k + 1] = second[k];
+    }
+    if (bytes.size() % 2) out[2 * odd] = first[odd];
     return woven;
 }
 

@@ -1,12 +1,14 @@
 // From a capture file to levels of detail, and to their files: all that happens behind a capture. Prints
 // nothing.
 //
+// clang-format off
 //     PipelineOptions how;
-//     how.targets = {{SimplifyTarget::Unit::triangles, 2000}}; // without: levels for n/2, n/4, n/8, n/16
-//     pixels const MeshedCapture made = mesh_capture("gears.exr", "gears.glb", how); for (std::size_t k = 0;
-//     k < made.levels.size(); ++k)
+//     how.targets = {{.value = 2000}}; // triangles; without: levels for n/2, n/4, n/8, n/16 pixels
+//     const MeshedCapture made = mesh_capture("gears.exr", "gears.glb", how);
+//     for (std::size_t k = 0; k < made.levels.size(); ++k)
 //         std::printf("%s: %zu triangles, 99.9 %% within %g samples\n", made.files[k].c_str(),
 //                     made.checks[k].triangles, made.levels[k].error.p999 / made.sample);
+// clang-format on
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -36,7 +38,7 @@ struct PipelineOptions {
 
     TextureChoice texture;                       ///< none with SurfaceMethod::cubes
     Compression compression = Compression::none; ///< .glb alone
-    std::size_t units = millimetre; ///< .stl, .3mf: what a unit of the model is, of length_units
+    std::size_t units = millimetre;              ///< .stl, .3mf: what a unit of the model is, of length_units
     bool one_file = false;                       ///< WriteOptions::one_file
     std::filesystem::path progressive; ///< .glpm or .pm to write too; empty: none. Its levels are not fitted.
     CheckDepth check = CheckDepth::topology;

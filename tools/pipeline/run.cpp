@@ -156,7 +156,8 @@ void Run::add_sized(const std::vector<double>& pixels) {
         drafts.push_back({std::move(found[k].level),
                           {"--pixels " + text_of(widths[k]), true},
                           found[k].count,
-                          limits[k].p999});
+                          limits[k].p999,
+                          found[k].bare});
     }
     if (!options.progressive.empty()) bind_to_progressive_mesh();
 }
@@ -169,7 +170,7 @@ void Run::bind_to_progressive_mesh() {
                         meter->measure(draft.level).p999 > draft.limit;
              ++k) {
             const double pixels = draft.level.pixels;
-            SizedLevel finer = search->finer({{}, draft.count});
+            SizedLevel finer = search->finer({{}, draft.count, draft.bare});
             draft.level = std::move(finer.level), draft.level.pixels = pixels, draft.count = finer.count;
         }
         targets.push_back({Unit::triangles, double(draft.level.mesh.triangles.size())});
@@ -284,7 +285,7 @@ void Run::measure() {
     for (int round = 0; round < most_finer && !(which = too_far()).empty(); ++round) {
         for (const std::size_t k : which) {
             Draft& draft = drafts[k];
-            SizedLevel finer = search->finer({{}, draft.count});
+            SizedLevel finer = search->finer({{}, draft.count, draft.bare});
             colour(finer.level);
             finer.level.name = draft.level.name, finer.level.pixels = draft.level.pixels;
             draft.level = std::move(finer.level), draft.count = finer.count;

@@ -14,16 +14,19 @@ constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
 constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
 constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
 constexpr std::size_t fewest = 4;         // triangles of a closed mesh
+constexpr std::size_t most_fitted = 10'000; // triangles, with little work
 constexpr double first_count = 65'536;    // triangles; sketches go down from here
 constexpr double sketch_step = 4;         // of counts
 constexpr double sketch_close_enough = 2; // of counts between which a limit lies
 constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
-constexpr double mean_left = 0.65;        // by the fit, of outlines too
-// The 99.9 % error of what is not fitted, of what is: coarse levels gain by the fit, fine ones have none.
-constexpr double coarse_count = 8'000, coarse_gains = 1.1, fine_gains = 0.93;
+// Of the errors of a bare level, by the fits: coarse levels gain, of the finest limit the 99.9 % alone.
+constexpr double p999_left = 0.85, mean_left = 0.69, finest_mean_to_p999 = 0.1;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
+
+/// So little off on average that outlines are as good as they get.
+bool is_finest(const SizedLimit& limit) { return limit.mean < finest_mean_to_p999 * limit.p999; }
 
 } // namespace
 
@@ -41,20 +44,21 @@ SizedLimit error_within(double pixels, int n) {
 }
 
 double LevelSearch::Estimate::share(const SizedLimit& limit) const {
-    return std::max(error.p999 / limit.p999, error.mean / limit.mean);
+    const bool gains = bare && count <= most_fitted, mean_gains = gains && !is_finest(limit);
+    return std::max((gains ? p999_left : 1) * error.p999 / limit.p999,
+                    (mean_gains ? mean_left : 1) * error.mean / limit.mean);
 }
 
 double LevelSearch::estimate(std::size_t count, const SizedLimit& limit) {
     if (count >= all) { // the full surface itself
-        sketches.push_back({double(all), {}});
+        sketches.push_back({double(all), {}, true});
         return 0;
     }
     simplification.collapse_to(count);
     Level level;
     level.mesh = simplification.level(count, FitWork::none);
     const Glance error = meter.glance(level);
-    const double left = double(level.mesh.triangles.size()) <= coarse_count ? mean_left : 1;
-    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean * left}};
+    const Estimate made{double(level.mesh.triangles.size()), {error.p999, error.mean}, true};
     const auto at = std::lower_bound(sketches.begin(), sketches.end(), made.count,
                                      [](const Estimate& e, double value) { return e.count < value; });
     if (at == sketches.end() || at->count != made.count) sketches.insert(at, made);
@@ -83,40 +87,40 @@ void LevelSearch::sketch(const std::vector<SizedLimit>& limits) {
         }
 }
 
-/// The count at which the sketched error is such a share of the limit: it falls as a power of the count.
-double LevelSearch::sketched(const SizedLimit& limit, double share) const {
+/// Where a level is likely to be within: the error falls as a power of the count.
+double LevelSearch::sketched(const SizedLimit& limit) const {
     const auto fine = std::find_if(sketches.begin(), sketches.end(),
-                                   [&](const Estimate& e) { return e.share(limit) <= share; });
+                                   [&](const Estimate& e) { return e.share(limit) <= margin; });
     if (fine == sketches.end()) return double(all);
     if (fine == sketches.begin()) return fine->count;
     const double high = fine->share(limit), low = std::prev(fine)->share(limit);
     if (!(high > 0)) return fine->count;
-    const double part = std::log(low / share) / std::log(low / high);
+    const double part = std::log(low / margin) / std::log(low / high);
     return std::prev(fine)->count *
            std::pow(fine->count / std::prev(fine)->count, std::clamp(part, 0.0, 1.0));
 }
 
-/// Where a fitted level is likely to be within.
-double LevelSearch::first_try(const SizedLimit& limit) const {
-    const double coarse = sketched(limit, coarse_gains);
-    return coarse <= coarse_count ? coarse : std::max(coarse_count, sketched(limit, fine_gains));
-}
-
-SizedLevel LevelSearch::make(std::size_t count) const {
-    return {shape(simplification.level(count, FitWork::little), true), count};
+SizedLevel LevelSearch::make(std::size_t count, bool bare) const {
+    return {shape(simplification.level(count, bare ? FitWork::none : FitWork::little), !bare), count, bare};
 }
 
 double LevelSearch::share_of(const Level& level, const SizedLimit& limit) const {
     const Glance error = meter.glance(level);
-    return Estimate{0, {error.p999, error.mean}}.share(limit * margin);
+    return Estimate{0, {error.p999, error.mean}, false}.share(limit * margin);
 }
 
-/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left.
+/// What its outlines gain a coarse level, the surface of a fine one may lose: then they are left. So is the
+/// fit where it costs the finest level what flat faces have of themselves.
 SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double& share) const {
+    if (is_finest(limit)) {
+        SizedLevel bare = make(count, true);
+        share = share_of(bare.level, limit);
+        if (share <= 1 || count > most_fitted) return bare;
+    }
     Mesh simplified = simplification.level(count, FitWork::little), plain = simplified;
     SizedLevel made{shape(std::move(simplified), true), count};
     share = share_of(made.level, limit);
-    if (share <= 1) return made;
+    if (share <= 1 || made.level.mesh.positions == plain.positions) return made;
     SizedLevel without{shape(std::move(plain), false), count};
     const double share_without = share_of(without.level, limit);
     if (share_without >= share) return made;
@@ -126,11 +130,13 @@ SizedLevel LevelSearch::tried(std::size_t count, const SizedLimit& limit, double
 
 /// A fit costs more than all sketches together: the first level that is within is taken, unless it is so far
 /// within that one more try is worth it.
-SizedLevel LevelSearch::search(const SizedLimit& limit) const {
+SizedLevel LevelSearch::search(const SizedLimit& limit, const SizedLevel* finer) const {
+    const std::size_t finer_has = finer ? finer->level.mesh.triangles.size() : SIZE_MAX;
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
-    for (double count = std::max(first_try(limit), least);;) {
+    for (double count = std::max(sketched(limit), least);;) {
+        if (count >= double(finer_has)) return found.count ? std::move(found) : *finer;
         double share = 0;
         SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
         if (level.level.mesh.triangles.size() >= all)
@@ -152,12 +158,14 @@ std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimi
     if (limits.empty()) return {};
     sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
-    tbb::parallel_for(std::size_t(0), limits.size(), [&](std::size_t k) { levels[k] = search(limits[k]); });
+    levels[0] = search(limits[0], nullptr);
+    tbb::parallel_for(std::size_t(1), limits.size(),
+                      [&](std::size_t k) { levels[k] = search(limits[k], &levels[0]); });
     return levels;
 }
 
 SizedLevel LevelSearch::finer(const SizedLevel& level) const {
-    return make(std::min(all, std::size_t(double(level.count) * a_few_more) + 2));
+    return make(std::min(all, std::size_t(double(level.count) * a_few_more) + 2), level.bare);
 }
 
 } // namespace glcast

@@ -33,6 +33,7 @@ using ShapeLevel = std::function<Level(Mesh&& simplified, bool outlines)>;
 struct SizedLevel {
     Level level;
     std::size_t count = 0; ///< triangles that were asked of the simplification
+    bool bare = false;     ///< without a fit
 };
 
 /// Looks for levels by the count of their triangles. Errors of some counts are estimated before any is
@@ -44,25 +45,25 @@ class LevelSearch {
         : simplification(simplification), meter(meter), all(all), shape(std::move(shape)) {}
 
     /// For each limit (model units, ascending) the coarsest level, to some 15 % of its triangles, that is
-    /// within it, by estimate (LevelMeter::glance). The full surface where none is.
+    /// within it, by estimate (LevelMeter::glance). The full surface where none is; the finest level again
+    /// where one would need no fewer triangles.
     std::vector<SizedLevel> coarsest_within(const std::vector<SizedLimit>& limits);
 
     /// One with a few more triangles, for one that turned out to be too coarse; the full surface at last.
     SizedLevel finer(const SizedLevel& level) const;
 
   private:
-    /// Of a bare level: what the fit is likely to leave of it.
     struct Estimate {
         double count;
         SizedLimit error;
-        double share(const SizedLimit& limit) const;
+        bool bare; ///< before a fit, which leaves less
+        double share(const SizedLimit& limit) const; ///< that is likely after a fit
     };
     double estimate(std::size_t count, const SizedLimit& limit);
     void sketch(const std::vector<SizedLimit>& limits);
-    double sketched(const SizedLimit& limit, double share) const;
-    double first_try(const SizedLimit& limit) const;
-    SizedLevel search(const SizedLimit& limit) const;
-    SizedLevel make(std::size_t count) const;
+    double sketched(const SizedLimit& limit) const;
+    SizedLevel search(const SizedLimit& limit, const SizedLevel* finer) const;
+    SizedLevel make(std::size_t count, bool bare) const;
     SizedLevel tried(std::size_t count, const SizedLimit& limit, double& share) const;
     double share_of(const Level& level, const SizedLimit& limit) const;
 

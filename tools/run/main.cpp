@@ -22,13 +22,17 @@
 #include "tools/run/progress.h"
 #include "tools/run/report.h"
 #include "tools/run/status.h"
+#include "tools/run/wine.h"
+#include "tools/words/text.h"
 
 namespace {
 using namespace glcast::run;
 namespace fs = std::filesystem;
 
+constexpr int start_again = -1; ///< of run(), no exit status
 constexpr int end_grace_ms = 3'000;
 constexpr const char* interrupted = "interrupted";
+constexpr const char* wants_direct3d = "it draws by Direct3D";
 
 /// What is wrong, and the exit status that it means.
 struct Trouble {
@@ -70,6 +74,9 @@ Environment environment(const Options& options, const std::string& capture, cons
                         const Library& library, const Display& display) {
     Environment changes = shim_variables(options, capture, pipe.path());
     changes.emplace_back("LD_PRELOAD", compose_preload(library, pipe.scratch()));
+    if (options.direct3d) {
+        for (auto& [name, value] : direct3d_variables(options)) changes.emplace_back(name, value);
+    }
     if (options.headless) {
         changes.insert(
             changes.end(),
@@ -97,6 +104,35 @@ int read_signals(int signals) {
     return number;
 }
 
+/// wined3d asks for a core profile unless it is told otherwise when it starts; a program of ours may start
+/// again.
+bool draws_by_direct3d(const Options& options, const Seen& seen) {
+    return is_wine(options) && (options.quit || options.headless) && !options.direct3d &&
+           options.pretend.empty() && seen.captures.empty() &&
+           principal(seen).refused.starts_with("a core profile");
+}
+
+/// Wine's folder, which takes its time to be made, does not use up the program's.
+std::string make_prefix(const Options& options, const fs::path& wine, const Display& display, int signals) {
+    const fs::path prefix = missing_prefix(options);
+    if (prefix.empty()) return {};
+    std::cerr << glcast::printable("glcast-run: making Wine's folder " + prefix.string() + " first")
+              << std::endl;
+    Program boot(false);
+    boot.spare(display.pid());
+    const std::vector<std::string> command = {options.program[0], "wineboot", "-i"};
+    if (const std::string trouble = boot.start(
+            wine, command, prefix_variables(options.headless ? display.name() : ""), STDERR_FILENO);
+        !trouble.empty())
+        return trouble;
+    for (boot.reap(); boot.wait_status() < 0; boot.reap()) {
+        pollfd event{signals, POLLIN, 0};
+        poll(&event, 1, -1);
+        if (read_signals(signals) != 0) return interrupted;
+    }
+    return {};
+}
+
 /// Waits for whichever is first: the cast (with --quit), the program's end, the time limit, a signal to us.
 /// Returns how it ended, to be said when there was no cast. `progress`: called after whatever happened.
 std::string wait_for_cast(const Options& options, Program& program, StatusPipe& pipe, int signals, Seen& seen,
@@ -121,6 +157,9 @@ std::string wait_for_cast(const Options& options, Program& program, StatusPipe& 
         progress();
         if (options.quit && seen.finished(options.captures)) {
             return "done";
+        }
+        if (draws_by_direct3d(options, seen)) {
+            return wants_direct3d;
         }
         if (!alive) {
             return "the program ended";
@@ -200,6 +239,9 @@ int run(const Options& options) {
             return fail(trouble);
         }
     }
+    if (const std::string trouble = make_prefix(options, program_file, display, signals); !trouble.empty()) {
+        return fail(trouble);
+    }
     Program program(options.quit || options.headless);
     program.spare(display.pid());
     const Environment changes = environment(options, capture, pipe, library, display);
@@ -219,6 +261,10 @@ int run(const Options& options) {
         if (!meshes && !result && seen.finished(options.captures))
             result = report(options, seen, nullptr, "");
     });
+    if (ending == wants_direct3d) {
+        program.end(end_grace_ms);
+        return start_again;
+    }
     if (principal(seen).api.empty()) {
         ending += find_obstacle(program, library);
         if (!options.headless) ending += missing_display();
@@ -235,6 +281,16 @@ int run(const Options& options) {
     return result ? *result : report(options, seen, meshes ? &*meshes : nullptr, ending);
 }
 
+int run_as_it_draws(Options options) {
+    const int status = run(options);
+    if (status != start_again) return status;
+    std::cerr << "glcast-run: it draws by a core profile, as Direct3D does under Wine: starting it again "
+                 "with --direct3d"
+              << std::endl;
+    options.direct3d = true;
+    return run(options);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -246,7 +302,7 @@ int main(int argc, char** argv) {
         case Parsed::usage_error:
             return 2;
         case Parsed::run:
-            return run(options);
+            return run_as_it_draws(options);
         }
     } catch (const std::exception& error) {
         return fail(error.what());

@@ -17,6 +17,7 @@
 #include "capture/view.h"
 #include "tools/io/mesh_endings.h"
 #include "tools/run/mesh_options.h"
+#include "tools/run/wine.h"
 #include "tools/words/text.h"
 
 namespace glcast::run {
@@ -212,6 +213,9 @@ void declare_what(CLI::App& app, Options& o) {
 }
 
 void declare_run(CLI::App& app, Options& o) {
+    value(app, cast_option("--pretend"), o.pretend)
+        ->check(CLI::IsMember({"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "2.0", "2.1"}));
+    flag(app, cast_option("--direct3d"), o.direct3d);
     flag(app, cast_option("--headless"), o.headless);
     flag(app, cast_option("--quit"), o.quit);
     value(app, cast_option("--timeout"), o.timeout_seconds)->check(seconds_from(0.001));
@@ -312,7 +316,8 @@ Parsed parse_options(int argc, const char* const* argv, Options& options) {
         return Parsed::run;
     }
     if (options.output.empty()) {
-        options.output = std::filesystem::path(options.program[0]).filename().string() +
+        const std::filesystem::path program = shown_program(options);
+        options.output = (is_wine(options) ? program.stem() : program).string() +
                          (options.captures == 1 ? ".exr" : ".%f.exr");
     }
     if (const std::string trouble = settle_mesh(options); !trouble.empty()) {
@@ -347,6 +352,7 @@ std::vector<std::pair<std::string, std::string>> shim_variables(const Options& o
         {cast_option("GLCAST_TRANSPARENT").variable, o.transparent},
         {cast_option("GLCAST_BACKDROP").variable, o.backdrop},
         {cast_option("GLCAST_FOV").variable, o.view_angle > 0 ? in_digits(o.view_angle) : ""},
+        {cast_option("GLCAST_PRETEND").variable, o.pretend},
         {cast_option("GLCAST_QUIT").variable, o.quit ? "1" : ""},
         {cast_option("GLCAST_MAX_SECONDS").variable, o.most_seconds > 0 ? in_digits(o.most_seconds) : ""},
         {cast_option("GLCAST_VERBOSE").variable, o.verbose ? "1" : ""},

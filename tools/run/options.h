@@ -26,12 +26,14 @@ struct Options {
     std::string frame_matrix; ///< eye, base, 16 numbers, or empty
     int group = 0;            ///< from 1; 0: the one with most triangles
     std::string window;       ///< number, title or X id; empty: the one that shows most
+    bool direct3d = false;    ///< wined3d is to draw by fixed functions
     bool headless = false;
     bool quit = false; ///< end the program after the capture; `list` implies it
     bool list = false;
     std::string list_picture; ///< absolute; implies `list`
     std::string include, transparent, backdrop;
     double view_angle = 0;      ///< degrees; 0: not told
+    std::string pretend;        ///< a version of OpenGL, or empty: the driver's
     double timeout_seconds = 0; ///< 0: no limit
     double most_seconds = 0;    ///< of one cast; 0: no limit
     bool verbose = false, json = false;

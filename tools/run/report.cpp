@@ -11,6 +11,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "tools/run/wine.h"
 #include "tools/words/closing.h"
 #include "tools/words/text.h"
 
@@ -26,7 +27,11 @@ int print_json(const Json& object) {
     return std::cout ? 0 : fail("cannot write to standard output");
 }
 
-std::string program_name(const Options& options) { return fs::path(options.program[0]).filename().string(); }
+/// Of Windows programs that which draws: Wine's command, or a launcher, was started.
+std::string program_name(const Options& options, const Seen& seen) {
+    const std::string drawing = is_wine(options) ? principal(seen).name : "";
+    return drawing.empty() ? shown_program(options) : drawing;
+}
 
 /// As one would type it from here.
 std::string from_here(const fs::path& file) {
@@ -109,7 +114,7 @@ std::string missing_display() {
 }
 
 int report_list(const Options& options, const Seen& seen) {
-    if (options.json) return print_json({{"program", program_name(options)}, {"groups", seen.groups}});
+    if (options.json) return print_json({{"program", program_name(options, seen)}, {"groups", seen.groups}});
     for (const std::string& group : seen.groups) std::cout << printable(group) << '\n';
     return std::cout.flush() ? 0 : fail("cannot write to standard output");
 }
@@ -118,12 +123,12 @@ int report_captures(const Options& options, const Seen& seen, const std::string&
     for (const Capture& capture : seen.captures) say_figures(options, capture);
     say_failure(seen);
     if (options.json) {
-        Json json = {{"program", program_name(options)}, {"captures", Json::array()}};
+        Json json = {{"program", program_name(options, seen)}, {"captures", Json::array()}};
         for (const Capture& capture : seen.captures) json["captures"].push_back(describe(capture));
         if (const int trouble = print_json(json)) return trouble;
     } else {
         const Capture& last = seen.captures.back();
-        const std::string file = from_here(last.file), name = program_name(options);
+        const std::string file = from_here(last.file), name = program_name(options, seen);
         say((seen.captures.size() == 1
                  ? "frame " + std::to_string(last.frame) + " of " + name + " is cast in " + file
                  : std::to_string(seen.captures.size()) + " frames of " + name + " are cast, the last in " +
@@ -135,7 +140,7 @@ int report_captures(const Options& options, const Seen& seen, const std::string&
 
 int report_meshes(const Options& options, const Seen& seen, const MeshStep& meshes,
                   const std::string& ending) {
-    Json json = {{"program", program_name(options)}, {"captures", Json::array()}};
+    Json json = {{"program", program_name(options, seen)}, {"captures", Json::array()}};
     int made = 0, status = 0;
     say_failure(seen);
     for (const MeshStep::Result& result : meshes.results()) {

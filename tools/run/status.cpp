@@ -106,7 +106,7 @@ std::string describe_failure(const Seen& seen, const std::string& ending) {
     }
     const Drawing drawing = principal(seen);
     if (drawing.api.empty()) {
-        return "no GL seen: " + ending;
+        return "no GL seen: " + ending + (drawing.refused.empty() ? "" : "; " + drawing.refused);
     }
     if (seen.casting > 0) {
         return "the capture of frame " + std::to_string(seen.casting) + " was not complete: " + ending +

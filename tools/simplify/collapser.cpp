@@ -20,7 +20,7 @@ constexpr std::size_t fitted_below = 33'000;
 // every collapse would have to be asked about.
 constexpr std::size_t guarded_below = 100'000;
 // With more, a round goes by place and colour alone, and the planes are those of what it leaves.
-constexpr std::size_t thinned_above = 1'500'000;
+constexpr std::size_t thinned_above = 700'000;
 // From round to round. The cost of a collapse grows with the third power of what one triangle stands for.
 constexpr float price_grows = 4;
 constexpr double least_progress = 0.9; // of the triangles left by a round; else the price must rise faster

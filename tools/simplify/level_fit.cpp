@@ -28,8 +28,9 @@ constexpr double folded = -0.985; // cosine of the normals at an edge: ten degre
 } // namespace
 
 LevelFit::LevelFit(Mesh& level, bool closed, std::vector<Sample>&& of_surface, double apart,
-                   const SurfaceWalk& along)
+                   const SurfaceWalk& along, double back)
     : mesh(level), walk(std::make_unique<SurfaceWalk>(level)), samples(std::move(of_surface)), spacing(apart),
+      back(back),
       tree(samples, apart, along), places(samples.size()), guard(surface(), closed) {}
 
 double LevelFit::lay() {
@@ -140,7 +141,7 @@ void LevelFit::gather() {
     const auto each = [&](const auto& f) {
         for (Place& place : places)
             if (place.faces) f(place, 1.0);
-        for (OnLevel& on : points) f(on.place, on.importance);
+        for (OnLevel& on : points) f(on.place, back * on.importance);
     };
     each([&](Place& place, double) {
         for (const std::uint32_t v : mesh.triangles[place.triangle]) ++first[v + 1];

@@ -16,9 +16,10 @@ namespace glcast {
 class LevelFit {
   public:
     /// Changes `level`, which must outlive this. `samples` are spread evenly over the surface, `spacing`
-    /// apart, of which `surface` is a walk that must outlive this too.
+    /// apart, of which `surface` is a walk that must outlive this too. `back`: so many times as hard as
+    /// lay() counts them, points of the level pull.
     LevelFit(Mesh& level, bool closed, std::vector<Sample>&& samples, double spacing,
-             const SurfaceWalk& surface);
+             const SurfaceWalk& surface, double back = 1);
 
     /// Lays every sample on the level and points of the level on the surface; the sum of their squared
     /// distances, those of the level's points as if there were as many to an area as there are samples.
@@ -95,7 +96,7 @@ class LevelFit {
     Mesh& mesh;
     std::unique_ptr<SurfaceWalk> walk;
     std::vector<Sample> samples;
-    double spacing;
+    double spacing, back;
     SampleTree tree;
     std::vector<Place> places; ///< of the samples
     std::vector<OnLevel> points;

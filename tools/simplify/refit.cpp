@@ -22,6 +22,10 @@ constexpr Amount little{12, 60'000, 4};
 constexpr std::size_t least_samples = 1'500, most_samples = 200'000;
 constexpr std::size_t too_few_per_vertex = 12, most_idle_rounds = 4;
 constexpr double worth_a_round = 0.002; // of the squared distances
+// Of some hundred triangles a fit ends in one of many least sums. So several are made, in which points of the
+// level first pull less hard than they are judged by.
+constexpr std::size_t few_vertices = 400, samples_of_few = 6'000;
+constexpr double pulls_of_few[] = {0.3};
 
 std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint32_t>& became,
                            std::size_t count) {
@@ -35,36 +39,57 @@ std::vector<Sample> spread(const SurfaceArea& over, const std::vector<std::uint3
     return samples;
 }
 
+/// A level, and its sum as LevelFit judges it.
+struct Fitted {
+    std::vector<glm::dvec3> positions;
+    std::vector<Triangle> triangles;
+    double squares = std::numeric_limits<double>::infinity();
+};
+
+/// What a round makes of it may be worse: the best one is returned.
+Fitted fitted(const Fitted& start, bool closed, std::vector<Sample> samples, double spacing,
+              const SurfaceWalk& along, std::size_t rounds, double back) {
+    Mesh level;
+    level.positions = start.positions;
+    level.triangles = start.triangles;
+    LevelFit fit(level, closed, std::move(samples), spacing, along, back);
+    Fitted best;
+    for (std::size_t round = 0, idle = 0;; ++round) {
+        const double squares = fit.lay();
+        idle = squares < (1 - worth_a_round) * best.squares ? 0 : idle + 1;
+        if (squares < best.squares) best = {level.positions, level.triangles, squares};
+        if (round == rounds || idle == most_idle_rounds) return best;
+        fit.move_vertices();
+        fit.swap_edges();
+    }
+}
+
 } // namespace
 
 void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const SurfaceWalk& along,
            FitWork work) {
     const Amount amount = work == FitWork::full ? full : little;
     const std::size_t vertices = remainder.positions.size();
-    const std::size_t count = std::clamp(amount.samples_per_vertex * vertices, least_samples, most_samples);
+    const bool few = work == FitWork::full && vertices <= few_vertices;
+    const std::size_t count = std::clamp(amount.samples_per_vertex * vertices,
+                                         few ? samples_of_few : least_samples, most_samples);
     const std::size_t rounds = std::min(amount.most_rounds, amount.most_walks / count);
     if (work == FitWork::none || rounds == 0 || count < too_few_per_vertex * vertices) return;
-    Mesh level;
-    level.positions = remainder.positions;
-    level.triangles = remainder.triangles;
-    std::vector<Sample> samples = spread(surface, remainder.became, count);
+    const std::vector<Sample> samples = spread(surface, remainder.became, count);
     if (samples.empty()) return;
-    LevelFit fit(level, remainder.closed, std::move(samples), std::sqrt(surface.total() / double(count)),
-                 along);
-    double least =
-        std::numeric_limits<double>::infinity(); // what a round makes of it may be worse: the best is kept
-    for (std::size_t round = 0, idle = 0;; ++round) {
-        const double squares = fit.lay();
-        idle = squares < (1 - worth_a_round) * least ? 0 : idle + 1;
-        if (squares < least) {
-            least = squares;
-            remainder.positions = level.positions;
-            remainder.triangles = level.triangles;
+    const double spacing = std::sqrt(surface.total() / double(count));
+    const Fitted start{remainder.positions, remainder.triangles};
+    const auto from = [&](const Fitted& begin, double back) {
+        return fitted(begin, remainder.closed, samples, spacing, along, rounds, back);
+    };
+    Fitted best = from(start, 1);
+    if (few)
+        for (const double back : pulls_of_few) {
+            Fitted other = from(from(start, back), 1);
+            if (other.squares < best.squares) best = std::move(other);
         }
-        if (round == rounds || idle == most_idle_rounds) return;
-        fit.move_vertices();
-        fit.swap_edges();
-    }
+    remainder.positions = std::move(best.positions);
+    remainder.triangles = std::move(best.triangles);
 }
 
 } // namespace glcast

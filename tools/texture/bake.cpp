@@ -22,7 +22,7 @@ namespace {
 
 constexpr double crumb = 64;        // samples squared: a chart costs more than that in gutter
 constexpr int block = 32;           // texels
-constexpr int most_looks = 4;
+constexpr int most_looks = 3;
 constexpr float flat_frame = 0.05f; // determinant of a tangent frame too skewed to write a normal in
 
 struct Layout {
@@ -85,13 +85,14 @@ class Baker {
     Done bake(int x, int y, std::uint32_t t) {
         if (t != facet.triangle) facet = facet_of(t);
         Texel sum{glm::vec3(0), glm::vec3(0), true};
+        int count = 0;
         for (int j = 0; j < looks; ++j)
-            for (int i = 0; i < looks; ++i) {
+            for (int i = j % 2; i < looks; i += 2, ++count) {
                 const Texel part = look({x + (i + 0.5) / looks, y + (j + 0.5) / looks}, t);
                 sum.colour += part.colour, sum.normal += part.normal, sum.seen = sum.seen && part.seen;
             }
         const std::size_t texel = std::size_t(y) * texture.colour.width + x;
-        put(texture.colour, texel, sum.colour / float(looks * looks));
+        put(texture.colour, texel, sum.colour / float(count));
         put(texture.normal, texel, 0.5f + 0.5f * unit_or(sum.normal, {0, 0, 1}));
         const glm::dvec2 centre(x + 0.5, y + 0.5);
         const glm::dvec3 off = in_triangle(centre).point - glm::dvec3(centre, 0);
@@ -168,7 +169,8 @@ class Baker {
     const Layout& layout;
     Texture& texture;
     const double reach;
-    const int looks; ///< at a texel, along an axis: one a sample that it covers
+    const int looks; ///< at a texel, along an axis: one a sample that it covers; every other one is made, as on
+                     ///< a chessboard, since each mixes its neighbours
     Facet facet{};
 };
 

@@ -12,7 +12,8 @@
 namespace glcast {
 namespace {
 
-constexpr int fewest_rows = 2, most_rows = 7; // of points: 4 to 49 a triangle
+constexpr int fewest_rows = 2, most_rows = 6; // of points: 4 to 36 a triangle
+constexpr double samples_a_point = 2;         // each mixes four
 constexpr double alike = 0.02;                // of a triangle's weight: holds its corners' values together
 
 /// The middles of rows * rows equal triangles that a triangle is cut into.
@@ -31,7 +32,7 @@ FaceSums sum_face(const Mesh& mesh, const LookAtSurface& look, double sample, co
     const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
     face.area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (sample * sample);
     if (normal == glm::vec3(0)) return face;
-    const int rows = std::clamp(int(std::lround(std::sqrt(face.area))), fewest_rows, most_rows);
+    const int rows = std::clamp(int(std::lround(std::sqrt(face.area / samples_a_point))), fewest_rows, most_rows);
     const double weight = face.area / (rows * rows);
     for_points(rows, [&](const glm::dvec3& w) {
         const CapturedPoint shown = look(w.x * a + w.y * b + w.z * c, normal);

@@ -20,6 +20,7 @@ namespace {
 // Measured on the teapot and bouncingcow's cow at 2,000 triangles, n = 512: see docs/design/textures.md.
 constexpr double near_enough = 0.05; // samples: mean distance of the surface
 constexpr std::size_t most_triangles = 30'000;
+constexpr std::size_t most_asked = 4'000; // triangles, for how near the surface is
 
 constexpr int rounds = 3;
 constexpr double surface_importance = 2; // of all triangles, against outlines
@@ -53,21 +54,33 @@ class Residuals {
           reach(needed_reach(mesh, captured, normals)) {}
 
     std::vector<Residual> all() const {
-        std::vector<std::vector<Residual>> own(mesh.triangles.size());
+        return of_triangles(1, [&](std::uint32_t t, double importance, std::vector<Residual>& out) {
+            add_surface(t, importance, out);
+            for (int k = 0; k < 3; ++k) add_outline(t, k, out);
+        });
+    }
+
+    /// Of the surface alone, at some of the triangles.
+    std::vector<Residual> some_of_surface() const {
+        return of_triangles(1 + mesh.triangles.size() / most_asked,
+                            [&](std::uint32_t t, double importance, std::vector<Residual>& out) {
+                                add_surface(t, importance, out);
+                            });
+    }
+
+  private:
+    template <class Add> std::vector<Residual> of_triangles(std::size_t step, const Add& add) const {
+        std::vector<std::vector<Residual>> own((mesh.triangles.size() + step - 1) / step);
         const double importance = surface_importance / typical_edge();
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(own.size()), 64),
-                          [&](const auto& range) {
-                              for (std::uint32_t t = range.begin(); t < range.end(); ++t) {
-                                  add_surface(t, importance, own[t]);
-                                  for (int k = 0; k < 3; ++k) add_outline(t, k, own[t]);
-                              }
-                          });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, own.size(), 64), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                add(std::uint32_t(i * step), importance, own[i]);
+        });
         std::vector<Residual> out;
         for (const auto& part : own) out.insert(out.end(), part.begin(), part.end());
         return out;
     }
 
-  private:
     glm::dvec3 position(std::uint32_t v) const { return mesh.positions[v] / captured.sample(); }
     double area(std::uint32_t t) const {
         const Triangle& v = mesh.triangles[t];
@@ -153,8 +166,7 @@ class Residuals {
 class Undoing {
   public:
     Undoing(Mesh& mesh, const std::vector<glm::vec3>& normals)
-        : mesh(mesh), before(mesh.positions), normals(normals),
-          crossed(find_self_intersections(mesh.positions, mesh.triangles)), halved(before.size()) {}
+        : mesh(mesh), before(mesh.positions), normals(normals), halved(before.size()) {}
 
     void run() {
         for (int round = 0; round < most_undone; ++round) {
@@ -186,8 +198,11 @@ class Undoing {
     }
     bool undo_crossings() {
         const auto now = find_self_intersections(mesh.positions, mesh.triangles);
+        if (now.empty()) return false; // as nearly always, whatever crossed before
+        if (!crossed) crossed = find_self_intersections(before, mesh.triangles);
         std::vector<TrianglePair> made;
-        std::set_difference(now.begin(), now.end(), crossed.begin(), crossed.end(), std::back_inserter(made));
+        std::set_difference(now.begin(), now.end(), crossed->begin(), crossed->end(),
+                            std::back_inserter(made));
         bool any = false;
         for (const auto& [s, t] : made) {
             any = undo(s) || any;
@@ -199,7 +214,7 @@ class Undoing {
     Mesh& mesh;
     const std::vector<glm::dvec3> before;
     const std::vector<glm::vec3>& normals;
-    const std::vector<TrianglePair> crossed;
+    std::optional<std::vector<TrianglePair>> crossed; ///< before; where it was asked
     std::vector<int> halved; ///< by vertex: how often
 };
 
@@ -232,9 +247,10 @@ bool fit_outlines(Mesh& mesh, const CapturedSurface& captured) {
     const Neighbours neighbours = find_neighbours(mesh);
     for (int round = 0; round < rounds; ++round) {
         const std::vector<glm::vec3> normals = triangle_normals(mesh);
-        const std::vector<Residual> residuals = Residuals(mesh, captured, neighbours, normals).all();
+        const Residuals asked(mesh, captured, neighbours, normals);
+        if (round == 0 && mean_height(asked.some_of_surface()) < near_enough) return false;
+        const std::vector<Residual> residuals = asked.all();
         const double mean = mean_height(residuals);
-        if (round == 0 && mean < near_enough) return false;
         const std::size_t vertices = mesh.positions.size();
         Undoing undoing(mesh, normals);
         move(mesh,

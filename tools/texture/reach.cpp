@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_reach = 1.5; // samples
 constexpr double most_triangles = 0.95;
-constexpr std::size_t most_probes = 20000;
+constexpr std::size_t most_probes = 5000;
 
 } // namespace
 

@@ -17,8 +17,7 @@ static void outlines(void) {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-static void edges(void) {
-    glColor3f(1, 1, 1);
+static void edges_in_that_colour(void) {
     glBegin(GL_LINES);
     for (int box = 0; box < 3; ++box)
         for (int edge = 0; edge < 12; ++edge) {
@@ -30,6 +29,11 @@ static void edges(void) {
             glVertex3fv(from), glVertex3fv(to);
         }
     glEnd();
+}
+
+static void edges(void) {
+    glColor3f(1, 1, 1);
+    edges_in_that_colour();
 }
 
 static void behind(void (*faces)(void)) {
@@ -107,6 +111,61 @@ static void depth_first(void) {
     edges();
     glDepthFunc(GL_LESS);
 }
+/* The same by glDrawBuffer. */
+static void mask_buffer(GLboolean on) { glDrawBuffer(on ? GL_BACK : GL_NONE); }
+static void no_buffer_and_lines(void) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1, 1);
+    mask_buffer(GL_FALSE);
+    draw_chiral();
+    mask_buffer(GL_TRUE);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    edges();
+}
+static void depth_first_no_buffer(void) {
+    mask_buffer(GL_FALSE);
+    draw_chiral();
+    mask_buffer(GL_TRUE);
+    glDepthFunc(GL_LEQUAL);
+    glColor3f(1, 0.5f, 0);
+    draw_chiral();
+    glDepthFunc(GL_LESS);
+}
+/* A box that only hides what is behind it, beside the body. */
+static void box_beside(void (*hide)(GLboolean on)) {
+    const float lo[3] = {1.2f, 1.2f, 1}, hi[3] = {1.8f, 1.8f, 4};
+    hide(GL_FALSE);
+    draw_box(lo, hi);
+    hide(GL_TRUE);
+    glDepthFunc(GL_LEQUAL); /* as many have it always */
+    glColor3f(1, 0.5f, 0);
+    draw_chiral();
+    glDepthFunc(GL_LESS);
+}
+static void mask_beside(void) { box_beside(mask); }
+static void no_buffer_beside(void) { box_beside(mask_buffer); }
+/* Lines, and faces that write no depth, have the colour that the last vertex of the hidden faces left. */
+static void colour_left(void) {
+    glColor3f(1, 1, 1);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1, 1);
+    mask(GL_FALSE);
+    for (int box = 0; box < 3; ++box) {
+        draw_box(chiral_boxes[box][0], chiral_boxes[box][1]);
+        glBegin(GL_TRIANGLES);
+        for (int corner = 0; corner < 3; ++corner) {
+            glVertex3fv(chiral_boxes[box][0]);
+            glColor3f(1, 0, 0);
+        }
+        glEnd();
+    }
+    mask(GL_TRUE);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    edges_in_that_colour();
+    glDepthMask(GL_FALSE), glDepthFunc(GL_LEQUAL);
+    draw_chiral();
+    glDepthMask(GL_TRUE), glDepthFunc(GL_LESS);
+}
 static void mask_alone(void) { behind(draw_chiral); }
 
 static GLuint program(void) {
@@ -152,6 +211,8 @@ static const struct {
     {"equal-outlines", equal_and_lines},  {"lit-textured", lit_and_textured},
     {"arrays-lines", arrays_and_lines},   {"colours-lines", colours_and_lines},
     {"depth-first", depth_first},         {"mask-alone", mask_alone},
+    {"no-buffer-lines", no_buffer_and_lines}, {"no-buffer-first", depth_first_no_buffer},
+    {"mask-beside", mask_beside}, {"no-buffer-beside", no_buffer_beside}, {"colour-left", colour_left},
     {"shaded-list", shaded_list},         {"shading-list", shading_list},
 };
 
