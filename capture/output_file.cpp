@@ -164,7 +164,8 @@ void discard_unfinished_files() {
 bool OutputFile::put_in_place() {
     if (!message.empty()) return false;
     if (descriptor < 0) return fail("cannot write", EBADF);
-    const bool is_linked = temporary.empty() && link_to(descriptor, path); // in one step: a kill leaves nothing
+    const bool is_linked =
+        temporary.empty() && link_to(descriptor, path); // in one step: a kill leaves nothing
     if (!is_linked && temporary.empty() && !name_unnamed()) return false;
     const int closed = close(descriptor); // network file systems tell here that the disk is full
     descriptor = -1;

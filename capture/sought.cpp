@@ -29,7 +29,8 @@ double carried_depth(const Place& place, int axis, const Box& box, int n, double
 } // namespace
 
 OpenTiles::OpenTiles(const Box& of, Axis axis, int n)
-    : box(of), axis(axis), axes(image_axes(axis)), n(n), size((n + most_tiles_across - 1) / most_tiles_across),
+    : box(of), axis(axis), axes(image_axes(axis)), n(n),
+      size((n + most_tiles_across - 1) / most_tiles_across),
       across(static_cast<std::size_t>((n + size - 1) / size)), tiles(across * across) {
     rounding = rounding_of(box);
     close_all();

@@ -13,10 +13,10 @@ struct Census {
     long masked = 0;         ///< of `solid`, those drawn with masked colours into the depth buffer alone
     long see_through = 0;    ///< of `solid`, those that blending lets the background through
     long lines = 0, points = 0;
-    long pixels = 0;           ///< glDrawPixels, glBitmap, glCopyPixels
-    long shaders = 0;          ///< draws under GLSL or assembly programs
+    long pixels = 0;            ///< glDrawPixels, glBitmap, glCopyPixels
+    long shaders = 0;           ///< draws under GLSL or assembly programs
     bool told_of_older = false; ///< the program is told of an older OpenGL without shaders (pretence.h)
-    std::string no_such_group; ///< a line that says which groups there are instead of the one asked for
+    std::string no_such_group;  ///< a line that says which groups there are instead of the one asked for
     std::string other_windows; ///< none of the windows is the one asked for: a line that says which there are
     std::string refused;       ///< why a frame could not be recorded, the last such reason
 

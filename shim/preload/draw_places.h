@@ -19,7 +19,8 @@ struct DrawPlace {
     std::vector<Part> parts; ///< as in record::DrawParts
     bool is_whole;
     GLenum mode;
-    glm::dmat4 to_capture{1.0}, magnitude{1.0}; ///< from the draw's coordinates; and what its sums are made of
+    glm::dmat4 to_capture{1.0},
+        magnitude{1.0}; ///< from the draw's coordinates; and what its sums are made of
 };
 
 /// A draw in pieces that may have fragments in an image; the rest of it covers no pixel's centre.

@@ -9,8 +9,8 @@ namespace glcast::preload {
 /// Is that worth its list? Long parts are better drawn as they are. The mode is one whose draws have parts.
 bool are_to_be_joined(const std::vector<record::DrawParts::Part>& parts);
 
-/// Elements of all parts, counted from the draw's first. Those of strips are joined by faces without area, and
-/// each part begins at an even place, so that its triangles turn as before.
+/// Elements of all parts, counted from the draw's first. Those of strips are joined by faces without area,
+/// and each part begins at an even place, so that its triangles turn as before.
 std::vector<GLuint> join_parts(GLenum mode, const std::vector<record::DrawParts::Part>& parts);
 
 } // namespace glcast::preload

@@ -72,7 +72,8 @@ constinit const OverrideRules mask_rules = {"A driver that lacks something",
 const GlTable& masked_table(const GlTable& real, const Mask& mask) {
     if (masked || !mask.any()) return masked ? masked->table : real;
     masked = new Masked{real, real.GetString, mask, {}};
-    override_calls(masked->table, real, rules, each_time | (mask.framebuffers ? no_framebuffers : 0u) | (mask.queries ? no_queries : 0u));
+    override_calls(masked->table, real, rules,
+                   each_time | (mask.framebuffers ? no_framebuffers : 0u) | (mask.queries ? no_queries : 0u));
     return masked->table;
 }
 

@@ -74,7 +74,7 @@ struct Options {
     int reference_n = 0; ///< GLCAST_REFERENCE_N: their resolution; 0: that of the capture
     std::string window; ///< GLCAST_WINDOW: the only one whose frames count: its number, 0x and its name, or a
                         ///< part of its title; empty: the one that shows most
-    Mask mask;          ///< GLCAST_MASK: float, fbo, glsl, queries with commas between: as if the driver lacked these
+    Mask mask; ///< GLCAST_MASK: float, fbo, glsl, queries with commas between: as if the driver lacked these
     std::size_t memory_mib = 4096; ///< GLCAST_MEMORY: most that a frame that is recorded may take, in MiB
     double most_seconds = 0;       ///< GLCAST_MAX_SECONDS: a cast that takes longer is given up; 0: no limit
     bool prepare_replay =
@@ -82,7 +82,7 @@ struct Options {
     bool read_ends = false; ///< GLCAST_READ_ENDS: glReadPixels, glFlush and glFinish end a frame too
     bool quit = false;      ///< GLCAST_QUIT: end the program with SIGTERM when the capture is on disk
     std::optional<GlVersion> pretend; ///< GLCAST_PRETEND: the most that the program is told of (pretence.h)
-    std::string error;      ///< one line; not armed then
+    std::string error;                ///< one line; not armed then
 };
 
 Options read_options();

@@ -250,8 +250,8 @@ class Analysis final : public DrawGate {
         return (mask[0] || mask[1] || mask[2]) && get_int(inner, GL_DRAW_BUFFER) != GL_NONE;
     }
 
-    /// glDrawBuffer(GL_NONE) is a mask of colours: the framebuffer's picture is in the buffer that had them before,
-    /// or gets them next.
+    /// glDrawBuffer(GL_NONE) is a mask of colours: the framebuffer's picture is in the buffer that had them
+    /// before, or gets them next.
     GLint shown_buffer() {
         const GLint buffer = get_int(inner, GL_DRAW_BUFFER);
         if (buffer != GL_NONE) return shown_buffers[framebuffer] = buffer;

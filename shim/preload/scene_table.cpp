@@ -107,7 +107,8 @@ void APIENTRY end() {
     if (!kept) return;
     gate().inner.End();
     gate().drawn();
-    if (const auto set = std::exchange(gate().late_colour, nullptr)) set(); // it goes on to be the current one
+    if (const auto set = std::exchange(gate().late_colour, nullptr))
+        set(); // it goes on to be the current one
 }
 
 /// A draw whose parts may be left out: `one(mode, first, count)` draws some of it, counted from its first

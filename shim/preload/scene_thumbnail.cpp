@@ -41,7 +41,8 @@ constinit const OverrideRules picture_rules = {
 PictureTable::PictureTable(const GlTable& gl, PictureFaces faces, PictureDepths depths)
     : real(gl), culls(faces == PictureFaces::program), picture(gl) {
     table_owner<PictureTable> = this;
-    override_calls(picture, real, rules, each_time | (depths != PictureDepths::program ? all_depths : 0u) |
+    override_calls(picture, real, rules,
+                   each_time | (depths != PictureDepths::program ? all_depths : 0u) |
                        (depths == PictureDepths::nearest ? nearest_depths : 0u));
 }
 

@@ -22,8 +22,9 @@ struct Thumbnail {
     bool flat = false;             ///< all of it at one depth
 };
 
-enum class PictureFaces { program, all };  ///< as the program culls; or whatever it culls
-/// Written where the program does; or by all that is drawn; or so, and what is in front shows whatever its test.
+enum class PictureFaces { program, all }; ///< as the program culls; or whatever it culls
+/// Written where the program does; or by all that is drawn; or so, and what is in front shows whatever its
+/// test.
 enum class PictureDepths { program, all, nearest };
 
 /// What the program draws, but where to and what it wipes away. One at a time on a thread.

@@ -161,8 +161,8 @@ std::vector<long> count(const GlTable& gl, const Target& target, const record::F
 
 /// glvnd has the entry points in any case: the counter tells.
 bool can_count(const GlTable& gl) {
-    if (!has_framebuffer_calls(gl) || !gl.GenQueries || !gl.BeginQuery || !gl.EndQuery || !gl.GetQueryObjectuiv ||
-        !gl.DeleteQueries || !gl.GetQueryiv)
+    if (!has_framebuffer_calls(gl) || !gl.GenQueries || !gl.BeginQuery || !gl.EndQuery ||
+        !gl.GetQueryObjectuiv || !gl.DeleteQueries || !gl.GetQueryiv)
         return false;
     GLint bits = 0;
     gl.GetQueryiv(GL_SAMPLES_PASSED, GL_QUERY_COUNTER_BITS, &bits);

@@ -32,7 +32,8 @@ struct StencilQuestion {
 struct StencilPlan {
     long kept = 0;       ///< draws that are cast where their test passes
     long unfollowed = 0; ///< draws that are cast whole, for their marks cannot be made in another view
-    long unanswered = 0; ///< questions that nobody could answer: the draws are cast as if they were none of these
+    long unanswered =
+        0; ///< questions that nobody could answer: the draws are cast as if they were none of these
     std::vector<StencilQuestion> questions;
 };
 

@@ -25,8 +25,7 @@ std::vector<Triangle> triangles(GLenum mode, const std::vector<GLuint>& e) {
     if (mode == GL_TRIANGLES)
         for (std::size_t i = 0; i + 2 < e.size(); i += 3) add(all, {e[i], e[i + 1], e[i + 2]});
     if (mode == GL_TRIANGLE_STRIP)
-        for (std::size_t i = 0; i + 2 < e.size(); ++i)
-            add(all, {e[i + i % 2], e[i + 1 - i % 2], e[i + 2]});
+        for (std::size_t i = 0; i + 2 < e.size(); ++i) add(all, {e[i + i % 2], e[i + 1 - i % 2], e[i + 2]});
     if (mode == GL_QUAD_STRIP)
         for (std::size_t i = 0; i + 3 < e.size(); i += 2)
             add(all, {e[i], e[i + 1], e[i + 3]}), add(all, {e[i], e[i + 3], e[i + 2]});

@@ -107,7 +107,8 @@ TEST(StencilTest, whose_marks_lie_in_the_window_is_not_followed_and_said) {
 TEST(StencilTest, of_which_nothing_can_be_asked_is_said) {
     const CastRun run = cast("outline", {{"GLCAST_MASK", "queries"}});
     ASSERT_TRUE(run.capture) << run.outcome.err;
-    EXPECT_NE(run.outcome.err.find("whether it is an outline or a decal"), std::string::npos) << run.outcome.err;
+    EXPECT_NE(run.outcome.err.find("whether it is an outline or a decal"), std::string::npos)
+        << run.outcome.err;
     EXPECT_FALSE(run.capture->info.not_understood.empty());
 }
 

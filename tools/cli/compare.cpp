@@ -121,7 +121,8 @@ int compare(const Options& options) {
 
 Run declare_compare(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer(R"(Points that nobody can see from outside (no free ray in 200 directions) are left out and counted.
+    app.footer(
+        R"(Points that nobody can see from outside (no free ray in 200 directions) are left out and counted.
 Samples: as told by --sample or --n, else as written in a .glb of glcast.)");
     app.add_option("a", options->a, "mesh: .glb, .obj, .ply, .off or .stl; the original, say")->required();
     app.add_option("b", options->b, "mesh: the cast, say")->required();

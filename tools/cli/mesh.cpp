@@ -180,7 +180,8 @@ int make_mesh(const Options& options) {
 
 Run declare_mesh(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer(R"(Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, each a file with one mesh.
+    app.footer(
+        R"(Levels. OUT.glb is the finest, OUT_LOD1.glb, OUT_LOD2.glb, ... beside it are coarser ones, each a file with one mesh.
 By default there are four, for an object that is drawn n/2, n/4, n/8 and n/16 pixels wide, n being the samples
 of the capture: 99.9 % of the surface is off by an eighth of such a pixel at most, both ways, measured. What asks
 for levels (--pixels, --full, --triangles, --edges, --ratio, --max-error) gets those and nothing else.

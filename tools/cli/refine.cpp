@@ -136,7 +136,8 @@ int refine(const Options& options) {
 
 Run declare_refine(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.footer(R"(A .glpm is written by glcast mesh --pm. Each level is the mesh that simplifying to the same count gave, bit for
+    app.footer(
+        R"(A .glpm is written by glcast mesh --pm. Each level is the mesh that simplifying to the same count gave, bit for
 bit; without a count it is the original. A file that is cut off gives what is there, and says so.
 Geomorph: --triangles 2000 --to 8000 --fraction 0.25 has the triangles of the finer level, its vertices a
 quarter of the way from where they are in the coarser one; at 0 it looks like that one, at 1 it is the finer.)");

@@ -48,7 +48,7 @@ std::vector<char> expand_runs(std::span<const char> chunk, std::size_t size) {
 void undo_differences(std::vector<char>& bytes) {
     static_assert(std::endian::native == std::endian::little);
     constexpr std::uint64_t each = 0x0101010101010101, low = 0x7f7f7f7f7f7f7f7f;
-    constexpr std::uint64_t offsets = 0x8000800080008000; // of every other byte one more than of the last
+    constexpr std::uint64_t offsets = 0x8000800080008000;    // of every other byte one more than of the last
     const auto plus = [](std::uint64_t a, std::uint64_t b) { // byte by byte, without carries
         return ((a & low) + (b & low)) ^ ((a ^ b) & ~low);
     };

@@ -28,7 +28,7 @@ class Run {
         Asked asked;
         std::size_t count = 0; ///< that was asked of the search, where it was found by one
         double limit = 0;      ///< of what 99.9 % of it may be off, model units; 0: none
-        bool bare = false; ///< SizedLevel::bare
+        bool bare = false;     ///< SizedLevel::bare
         std::optional<TextureReport> texture{};
     };
 

@@ -10,14 +10,14 @@ constexpr int default_levels = 4;
 // Of a pixel: errors of a level.
 constexpr double p999_share = 1.0 / 8;
 constexpr double mean_share = 1.0 / 43, finest_mean_share = 1.0 / 200;
-constexpr double outlines_below = 32;     // pixels: of a picture, that many of them are outline
-constexpr double full_is_off_below = 64;  // pixels: the full surface bends too, by whole samples
-constexpr std::size_t fewest = 4;         // triangles of a closed mesh
+constexpr double outlines_below = 32;       // pixels: of a picture, that many of them are outline
+constexpr double full_is_off_below = 64;    // pixels: the full surface bends too, by whole samples
+constexpr std::size_t fewest = 4;           // triangles of a closed mesh
 constexpr std::size_t most_fitted = 10'000; // triangles, with little work
-constexpr double first_count = 65'536;    // triangles; sketches go down from here
-constexpr double sketch_step = 4;         // of counts
-constexpr double sketch_close_enough = 2; // of counts between which a limit lies
-constexpr double margin = 0.93;           // of the limit: an estimate is no certificate
+constexpr double first_count = 65'536;      // triangles; sketches go down from here
+constexpr double sketch_step = 4;           // of counts
+constexpr double sketch_close_enough = 2;   // of counts between which a limit lies
+constexpr double margin = 0.93;             // of the limit: an estimate is no certificate
 // Of the errors of a bare level, by the fits: coarse levels gain, of the finest limit the 99.9 % alone.
 constexpr double p999_left = 0.85, mean_left = 0.69, finest_mean_to_p999 = 0.1;
 constexpr double far_within = 0.6;                 // of the limit

@@ -56,7 +56,7 @@ class LevelSearch {
     struct Estimate {
         double count;
         SizedLimit error;
-        bool bare; ///< before a fit, which leaves less
+        bool bare;                                   ///< before a fit, which leaves less
         double share(const SizedLimit& limit) const; ///< that is likely after a fit
     };
     double estimate(std::size_t count, const SizedLimit& limit);

@@ -119,8 +119,9 @@ CLI::Validator from_to(const char* unit, double least, double most) {
     const auto check = [=](const std::string& text) {
         double value = 0;
         const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-        return good ? std::string()
-                    : std::string("needs ") + unit + " from " + range[0] + " to " + range[1] + ", not " + text;
+        return good
+                   ? std::string()
+                   : std::string("needs ") + unit + " from " + range[0] + " to " + range[1] + ", not " + text;
     };
     return {check, "FLOAT in [" + range[0] + " - " + range[1] + "]"};
 }

@@ -30,8 +30,7 @@ constexpr double folded = -0.985; // cosine of the normals at an edge: ten degre
 LevelFit::LevelFit(Mesh& level, bool closed, std::vector<Sample>&& of_surface, double apart,
                    const SurfaceWalk& along, double back)
     : mesh(level), walk(std::make_unique<SurfaceWalk>(level)), samples(std::move(of_surface)), spacing(apart),
-      back(back),
-      tree(samples, apart, along), places(samples.size()), guard(surface(), closed) {}
+      back(back), tree(samples, apart, along), places(samples.size()), guard(surface(), closed) {}
 
 double LevelFit::lay() {
     faced.clear();

@@ -71,8 +71,8 @@ void refit(Collapser::Remainder& remainder, const SurfaceArea& surface, const Su
     const Amount amount = work == FitWork::full ? full : little;
     const std::size_t vertices = remainder.positions.size();
     const bool few = work == FitWork::full && vertices <= few_vertices;
-    const std::size_t count = std::clamp(amount.samples_per_vertex * vertices,
-                                         few ? samples_of_few : least_samples, most_samples);
+    const std::size_t count =
+        std::clamp(amount.samples_per_vertex * vertices, few ? samples_of_few : least_samples, most_samples);
     const std::size_t rounds = std::min(amount.most_rounds, amount.most_walks / count);
     if (work == FitWork::none || rounds == 0 || count < too_few_per_vertex * vertices) return;
     const std::vector<Sample> samples = spread(surface, remainder.became, count);

@@ -32,7 +32,8 @@ FaceSums sum_face(const Mesh& mesh, const LookAtSurface& look, double sample, co
     const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
     face.area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (sample * sample);
     if (normal == glm::vec3(0)) return face;
-    const int rows = std::clamp(int(std::lround(std::sqrt(face.area / samples_a_point))), fewest_rows, most_rows);
+    const int rows =
+        std::clamp(int(std::lround(std::sqrt(face.area / samples_a_point))), fewest_rows, most_rows);
     const double weight = face.area / (rows * rows);
     for_points(rows, [&](const glm::dvec3& w) {
         const CapturedPoint shown = look(w.x * a + w.y * b + w.z * c, normal);

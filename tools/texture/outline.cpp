@@ -215,7 +215,7 @@ class Undoing {
     const std::vector<glm::dvec3> before;
     const std::vector<glm::vec3>& normals;
     std::optional<std::vector<TrianglePair>> crossed; ///< before; where it was asked
-    std::vector<int> halved; ///< by vertex: how often
+    std::vector<int> halved;                          ///< by vertex: how often
 };
 
 void move(Mesh& mesh, const std::vector<glm::dvec3>& by, double farthest, double sample) {

@@ -207,13 +207,21 @@ static const struct {
     const char* name;
     void (*draw)(void);
 } ways[] = {
-    {"mask-outlines", mask_and_outlines}, {"mask-lines", mask_and_lines},
-    {"equal-outlines", equal_and_lines},  {"lit-textured", lit_and_textured},
-    {"arrays-lines", arrays_and_lines},   {"colours-lines", colours_and_lines},
-    {"depth-first", depth_first},         {"mask-alone", mask_alone},
-    {"no-buffer-lines", no_buffer_and_lines}, {"no-buffer-first", depth_first_no_buffer},
-    {"mask-beside", mask_beside}, {"no-buffer-beside", no_buffer_beside}, {"colour-left", colour_left},
-    {"shaded-list", shaded_list},         {"shading-list", shading_list},
+    {"mask-outlines", mask_and_outlines},
+    {"mask-lines", mask_and_lines},
+    {"equal-outlines", equal_and_lines},
+    {"lit-textured", lit_and_textured},
+    {"arrays-lines", arrays_and_lines},
+    {"colours-lines", colours_and_lines},
+    {"depth-first", depth_first},
+    {"mask-alone", mask_alone},
+    {"no-buffer-lines", no_buffer_and_lines},
+    {"no-buffer-first", depth_first_no_buffer},
+    {"mask-beside", mask_beside},
+    {"no-buffer-beside", no_buffer_beside},
+    {"colour-left", colour_left},
+    {"shaded-list", shaded_list},
+    {"shading-list", shading_list},
 };
 
 int main(int argc, char** argv) {

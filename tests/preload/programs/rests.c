@@ -221,17 +221,17 @@ static void* send_signals(void* times) {
     _exit(0);
 }
 
-static int has_begun(void) {
+static int has_told(const char* what) {
     char text[4096] = "";
     FILE* told = fopen(getenv("GLCAST_STATUS") ? getenv("GLCAST_STATUS") : "/dev/null", "r");
     const size_t length = told ? fread(text, 1, sizeof text - 1, told) : 0;
     if (told) fclose(told);
     text[length] = 0;
-    return strstr(text, "casting@") != 0;
+    return strstr(text, what) != 0;
 }
 static void in_a_cast(void) {
     kill(getpid(), SIGUSR1);
-    for (int i = 0; i < 2000 && !has_begun(); ++i) pause_a_moment();
+    for (int i = 0; i < 2000 && !has_told("casting@"); ++i) pause_a_moment();
 }
 
 int main(int argc, char** argv) {
@@ -246,6 +246,10 @@ int main(int argc, char** argv) {
     }
     way->draw();
     if (strcmp(then, "signals") == 0) pthread_create(&thread, 0, send_signals, &times);
+    if (strcmp(then, "told") == 0) { /* why it cannot be cast now */
+        for (int i = 0; i < 4000 && !has_told("its last frames"); ++i) pause_a_moment();
+        return 0;
+    }
     if (strcmp(then, "exit") == 0) {
         in_a_cast();
         return 0;
