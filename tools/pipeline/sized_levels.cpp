@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace glcast {
 namespace {
@@ -24,6 +23,7 @@ constexpr double p999_left = 0.85, mean_left = 0.69, finest_mean_to_p999 = 0.1;
 constexpr double far_within = 0.6;                 // of the limit
 constexpr double least_step = 1.15, most_step = 2; // of counts
 constexpr double a_few_more = 1.2;
+constexpr double fewer_than_finer = 0.75; // what is tried first, whatever the sketches say
 
 /// So little off on average that outlines are as good as they get.
 bool is_finest(const SizedLimit& limit) { return limit.mean < finest_mean_to_p999 * limit.p999; }
@@ -135,7 +135,7 @@ SizedLevel LevelSearch::search(const SizedLimit& limit, const SizedLevel* finer)
     const double least = double(std::max(simplification.least(), fewest));
     SizedLevel found;
     double coarse = 0; // the most triangles that were too few
-    for (double count = std::max(sketched(limit), least);;) {
+    for (double count = std::max(std::min(sketched(limit), fewer_than_finer * double(finer_has)), least);;) {
         if (count >= double(finer_has)) return found.count ? std::move(found) : *finer;
         double share = 0;
         SizedLevel level = tried(std::size_t(std::min(count, double(all))), limit, share);
@@ -158,9 +158,7 @@ std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimi
     if (limits.empty()) return {};
     sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
-    levels[0] = search(limits[0], nullptr);
-    tbb::parallel_for(std::size_t(1), limits.size(),
-                      [&](std::size_t k) { levels[k] = search(limits[k], &levels[0]); });
+    for (std::size_t k = 0; k < limits.size(); ++k) levels[k] = search(limits[k], k ? &levels[k - 1] : nullptr);
     return levels;
 }
 

@@ -45,7 +45,7 @@ class LevelSearch {
         : simplification(simplification), meter(meter), all(all), shape(std::move(shape)) {}
 
     /// For each limit (model units, ascending) the coarsest level, to some 15 % of its triangles, that is
-    /// within it, by estimate (LevelMeter::glance). The full surface where none is; the finest level again
+    /// within it, by estimate (LevelMeter::glance). The full surface where none is; the finer level again
     /// where one would need no fewer triangles.
     std::vector<SizedLevel> coarsest_within(const std::vector<SizedLimit>& limits);
 
