@@ -158,7 +158,8 @@ std::vector<SizedLevel> LevelSearch::coarsest_within(const std::vector<SizedLimi
     if (limits.empty()) return {};
     sketch(limits);
     std::vector<SizedLevel> levels(limits.size());
-    for (std::size_t k = 0; k < limits.size(); ++k) levels[k] = search(limits[k], k ? &levels[k - 1] : nullptr);
+    for (std::size_t k = 0; k < limits.size(); ++k)
+        levels[k] = search(limits[k], k ? &levels[k - 1] : nullptr);
     return levels;
 }
 
