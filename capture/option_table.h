@@ -60,7 +60,7 @@ inline constexpr CastOption cast_options[] = {
      "lines, points or lines,points"},
     {"--transparent", "GLCAST_TRANSPARENT", "keep|skip",
      "What is blended: keep or skip all of it (default: keep it where half or less of what is behind shows)",
-     "keep or skip", "../measured/transparency.md"},
+     "keep or skip", "../guide/limits.md"},
     {"--backdrop", "GLCAST_BACKDROP", "keep",
      "keep: cast skies, pictures behind the scene and outlines too (default: left out, with a line that says "
      "so)",
@@ -94,7 +94,7 @@ inline constexpr CastOption cast_options[] = {
      "a file name"},
     {"", "GLCAST_SHADERS", "0", "Peel by slabs, as if the driver had no shaders", "0 or 1"},
     {"", "GLCAST_MASK", "float,fbo,glsl,queries", "As if the driver lacked these",
-     "float, fbo or glsl, with commas between"},
+     "float, fbo, glsl or queries, with commas between"},
     {"", "GLCAST_REPLAY", "calls", "Each recorded call is made again in each replay", "arrays or calls"},
     {"", "GLCAST_READ_ENDS", "1", "glReadPixels, glFlush and glFinish end a frame too", "0 or 1"},
     {"", "GLCAST_REFERENCE_VIEWS", "36", "Further views of the same frame, to measure with",
