@@ -35,8 +35,8 @@ struct CaptureInfo {
     std::string normals;  ///< "signed" or "six"
     std::string glcast_version;
     bool both_sides = false; ///< hits are shown as either side sees them
-    /// Not with both_sides. All that is lit is lit on both sides: a viewer on the other side of a hit sees the
-    /// reverse of its normal.
+    /// Not with both_sides. All that is lit is lit on both sides: a viewer on the other side of a hit sees
+    /// the reverse of its normal.
     bool reversed_backs = false;
     std::map<std::string, long> not_understood; ///< entry point or reason -> how often
 

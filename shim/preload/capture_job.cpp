@@ -13,8 +13,6 @@
 namespace glcast::preload {
 namespace {
 
-CastResult failure(const std::string& why) { return {CastOutcome::failed, "nothing captured: " + why}; }
-
 struct Facts {
     const Group& group;
     const Options& options;
@@ -51,7 +49,8 @@ constexpr Remark remarks[] = {
      }},
     {"a draw that a stencil test keeps to places which other views cannot tell: cast whole",
      [](const Facts& f) { return f.stencil.unfollowed; }},
-    {"a draw under a stencil test of which nobody could ask whether it is an outline or a decal (occlusion queries "
+    {"a draw under a stencil test of which nobody could ask whether it is an outline or a decal (occlusion "
+     "queries "
      "tell): cast as neither",
      [](const Facts& f) { return f.stencil.unanswered; }},
     {"triangles drawn into the depth buffer alone, beside others with colours: not cast",
@@ -98,9 +97,10 @@ std::map<std::string, long> CaptureJob::not_understood() const {
     if (window.unseen > 0) {
         all["later frames, too fast to be recorded before their time: the window may show another picture"] =
             window.unseen;
-        say_once("frame %ld is cast, the last with solid geometry that was recorded: %ld came after it too fast "
-                 "to be recorded before their time, and the window may show another picture",
-                 number, window.unseen);
+        say_once(
+            "frame %ld is cast, the last with solid geometry that was recorded: %ld came after it too fast "
+            "to be recorded before their time, and the window may show another picture",
+            number, window.unseen);
     }
     return all;
 }

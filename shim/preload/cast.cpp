@@ -22,8 +22,6 @@ PatienceLines patience_lines() {
             .progress = [](const std::string& text) { tell("progress", text); }};
 }
 
-CastResult failure(const std::string& why) { return {CastOutcome::failed, "nothing captured: " + why}; }
-
 CastResult nothing_solid(Census held) { return {CastOutcome::nothing_solid, "", std::move(held)}; }
 
 CastResult list_groups(SceneChooser& chooser, long number, const Options& options, const CastWindow& window,

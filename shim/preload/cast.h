@@ -21,6 +21,10 @@ struct CastResult {
     std::optional<Rating> rating = std::nullopt; ///< of captured and listed
 };
 
+inline CastResult failure(const std::string& why) {
+    return {CastOutcome::failed, "nothing captured: " + why};
+}
+
 /// The window in which a frame has ended, among others.
 struct CastWindow {
     std::string name;              ///< as people are told; empty where there is no other
@@ -28,7 +32,7 @@ struct CastWindow {
     bool replaces = false;         ///< what is captured so far
     long unanswered = 0;           ///< questions about windows that the X server left open
     long unseen = 0;      ///< frames that came after it and were not recorded, before one without a solid
-    bool at_rest = false;          ///< on a thread of ours, with second contexts that are there already
+    bool at_rest = false; ///< on a thread of ours, with second contexts that are there already
 };
 
 /// On a thread where a context of the program's may be current; it and its drawables are so again afterwards.

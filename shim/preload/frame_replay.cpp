@@ -8,7 +8,8 @@
 
 namespace glcast::preload {
 
-FrameReplay::FrameReplay(const std::vector<FramePart>& of, const Options& with, Patience& bounds, bool at_rest)
+FrameReplay::FrameReplay(const std::vector<FramePart>& of, const Options& with, Patience& bounds,
+                         bool at_rest)
     : gl(masked_table(real_table(), with.mask)), patience(bounds), parts(of), options(with),
       siblings(*of.front().context, at_rest) {}
 

@@ -101,7 +101,9 @@ class Glx : public WindowSystem {
                real().glXMakeContextCurrent(as_display(display), 0, 0, static_cast<GLXContext>(context));
     }
 
-    void watch_display(void* display, void (*gone)(void*)) const override { call_before_close(display, gone); }
+    void watch_display(void* display, void (*gone)(void*)) const override {
+        call_before_close(display, gone);
+    }
 
     bool can_return_to(const Binding& b) const override {
         return drawable_exists(b.display, b.draw) && (b.read == b.draw || drawable_exists(b.display, b.read));

@@ -105,11 +105,11 @@ struct Draw {
     int eye_map = -1;         ///< index into Scene::eye_maps; -1: it lies in the group's eye space as it is
     bool two_colours = false; ///< its fronts and its backs are lit with materials of their own
     bool lit_on_both = false, lit_as_front = false; ///< light turns the normals of its backs; does not
-    GLenum culled = GL_NONE;  ///< its faces that are not drawn
-    StencilUse stencil;       ///< as planned (stencil_plan.h)
-    bool is_outline = false;  ///< around the picture of something (stencil_plan.h)
-    bool is_decal = false;    ///< on a surface, without a depth test
-    double nudge = 0;         ///< how much deeper than the group its projection draws it (capture/camera.h)
+    GLenum culled = GL_NONE;                        ///< its faces that are not drawn
+    StencilUse stencil;                             ///< as planned (stencil_plan.h)
+    bool is_outline = false;                        ///< around the picture of something (stencil_plan.h)
+    bool is_decal = false;                          ///< on a surface, without a depth test
+    double nudge = 0; ///< how much deeper than the group its projection draws it (capture/camera.h)
 };
 
 struct Scene {

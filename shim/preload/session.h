@@ -20,8 +20,8 @@ struct NativeContext {
     void* handle = nullptr;
     std::function<void*()>
         make_sibling; ///< repeats the call that made it, sharing with it; null where that failed
-    std::shared_ptr<record::Context> shadow; ///< null where it is not desktop GL
-    std::atomic<void*> sibling{nullptr};     ///< made when first needed, ours to destroy
+    std::shared_ptr<record::Context> shadow;   ///< null where it is not desktop GL
+    std::atomic<void*> sibling{nullptr};       ///< made when first needed, ours to destroy
     std::atomic<bool> sibling_is_spent{false}; ///< it has drawn: to be destroyed on a thread of the program's
     // Changed by the thread on which it is current, where there is one, and with the session's mutex held.
     bool recording = false;

@@ -117,10 +117,9 @@ std::optional<CastWindow> take_turn(Session& s, const NativeContext& context, st
     std::unique_lock lock(s.mutex);
     if (wanted.empty() || s.windows.is_wanted(drawable, wanted)) {
         s.seen.other_windows.clear();
-        const bool may_follow =
-            end == FrameEnd::first_read || end == FrameEnd::read
-                ? takes_one(s.options)
-                : chooses_a_window(s.options) && s.windows.others_may_follow(drawable);
+        const bool may_follow = end == FrameEnd::first_read || end == FrameEnd::read
+                                    ? takes_one(s.options)
+                                    : chooses_a_window(s.options) && s.windows.others_may_follow(drawable);
         if (may_follow && !s.told_looks.exchange(true)) tell("looks", s.windows.list());
         return CastWindow{s.windows.describe(drawable),
                           s.holding && !s.read_is_held ? s.windows.held() : std::nullopt,
@@ -323,8 +322,8 @@ bool cast_standing(Session& s, const NativeContext* current, FrameEnd end) {
         keep_of_this_display(picture.parts);
         Looked looked = Looked::passed;
         on_own_stack(HeldSignals::handled, [&] {
-            looked = cast_or_pass(s, picture.parts, current, picture.window, picture.number, end,
-                                  picture.unseen);
+            looked =
+                cast_or_pass(s, picture.parts, current, picture.window, picture.number, end, picture.unseen);
         });
         if (looked == Looked::nothing) {
             const std::lock_guard lock(s.mutex);

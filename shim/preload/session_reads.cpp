@@ -1,5 +1,5 @@
-// Frames that end where they are read, and drawables that no swap shows (docs/design/architecture.md, "Where a frame
-// ends").
+// Frames that end where they are read, and drawables that no swap shows (docs/design/architecture.md, "Where
+// a frame ends").
 #include <algorithm>
 #include <utility>
 

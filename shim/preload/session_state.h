@@ -124,8 +124,8 @@ void frame_ends_here(Session& s, bool (*really)());
 /// Whether frames are recorded follows from the triggers.
 void update_unwanted(Session& s);
 
-/// A whole frame ended in `window` that is not cast now: it stands there, until another does. Empty: it was not
-/// recorded.
+/// A whole frame ended in `window` that is not cast now: it stands there, until another does. Empty: it was
+/// not recorded.
 void keep_standing(Session& s, std::vector<FramePart> parts, FrameKey window, long number);
 /// What our own thread needs to cast what stands, which it cannot ask an X server for.
 void make_ready_for_rest(Session& s);

@@ -15,14 +15,13 @@ namespace glcast::preload {
 /// meanwhile point at a context that is gone (Mesa's sampler views). One that has not is kept for the next
 /// frame, if it holds nothing of the program's.
 ///
-/// At rest, on a thread of ours, nothing of the program's is current, and nothing is said to an X server: they
-/// were made before, and are put away by the program's thread when it calls GL again (session_rest.cpp).
+/// At rest, on a thread of ours, nothing of the program's is current, and nothing is said to an X server:
+/// they were made before, and are put away by the program's thread when it calls GL again (session_rest.cpp).
 class SiblingScope {
   public:
     /// `first`: whose window system tells what is current.
     SiblingScope(const NativeContext& first, bool is_at_rest)
-        : system(*first.system), at_rest(is_at_rest),
-          program(at_rest ? Binding{} : first.system->current()) {
+        : system(*first.system), at_rest(is_at_rest), program(at_rest ? Binding{} : first.system->current()) {
         if (!program.context) program.display = first.display;
         if (program.context && !system.can_return_to(program))
             throw std::runtime_error("the program has destroyed its drawable");

@@ -60,8 +60,8 @@ class Watcher {
         if (!options.key.empty()) tell("failed", line);
     }
 
-    /// First an exposure; if nothing is drawn, a pixel wider, then away from the screen, and back again whatever
-    /// happens.
+    /// First an exposure; if nothing is drawn, a pixel wider, then away from the screen, and back again
+    /// whatever happens.
     void nudge_if_still() {
         const long now_ended = watched.frames();
         const auto now = Clock::now();
@@ -126,7 +126,8 @@ void watch(Watcher& watcher) noexcept {
 } // namespace
 
 void start_watcher(const Options& options, const std::string& display, Watched watched) {
-    start_own_thread([watcher = std::make_shared<Watcher>(options, display, std::move(watched))] { watch(*watcher); });
+    start_own_thread(
+        [watcher = std::make_shared<Watcher>(options, display, std::move(watched))] { watch(*watcher); });
 }
 
 } // namespace glcast::preload

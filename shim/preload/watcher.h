@@ -1,5 +1,5 @@
-// A thread of our own that waits for the key, the signal or the time, nudges a program that does not draw, and
-// casts what stands in its window. Only started when one of these is asked for.
+// A thread of our own that waits for the key, the signal or the time, nudges a program that does not draw,
+// and casts what stands in its window. Only started when one of these is asked for.
 #pragma once
 #include <functional>
 #include <string>

@@ -20,8 +20,8 @@ class WindowSystem {
     virtual Binding current() const = 0;
     /// False when it failed; errors do not reach the program.
     virtual bool bind(const Binding& binding) const = 0;
-    /// The same on a thread of ours, without a drawable, or none where `context` is null: says nothing to an X
-    /// server, whose connection belongs to the program's threads.
+    /// The same on a thread of ours, without a drawable, or none where `context` is null: says nothing to an
+    /// X server, whose connection belongs to the program's threads.
     virtual bool bind_alone(void* display, void* context) const { return bind({display, 0, 0, context}); }
     /// `gone(display)` is called before the program closes it. Asked on a thread of the program's.
     virtual void watch_display(void*, void (*)(void*)) const {}

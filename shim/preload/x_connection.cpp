@@ -98,8 +98,8 @@ xcb_connection_t* as_xcb(void* connection) { return static_cast<xcb_connection_t
 
 /// A request of an extension; xcb fills in the first four bytes. Its sequence number.
 template <class Calls>
-unsigned send(const Calls& x, void* connection, xcb_extension_t& extension, std::uint8_t opcode, bool answered,
-              std::vector<std::uint8_t> body) {
+unsigned send(const Calls& x, void* connection, xcb_extension_t& extension, std::uint8_t opcode,
+              bool answered, std::vector<std::uint8_t> body) {
     body.insert(body.begin(), 4, 0);
     iovec parts[4] = {}; // xcb wants two of its own before ours
     parts[2] = {body.data(), body.size()};
@@ -136,7 +136,8 @@ std::uint32_t word_at(const std::uint8_t* at) {
     return word;
 }
 
-/// The numbers that the ids of this process's windows begin with: X-Resource knows the process of each client.
+/// The numbers that the ids of this process's windows begin with: X-Resource knows the process of each
+/// client.
 template <class Calls> std::vector<std::uint32_t> own_clients(const Calls& x, void* connection) {
     std::vector<std::uint32_t> found;
     const auto* extension = x.xcb_get_extension_data(as_xcb(connection), &resource_extension);
@@ -148,7 +149,8 @@ template <class Calls> std::vector<std::uint32_t> own_clients(const Calls& x, vo
     const std::uint8_t *at = reply.get() + 32, *end = at + std::size_t(word_at(reply.get() + 4)) * 4;
     for (std::uint32_t left = word_at(reply.get() + 8); left > 0 && end - at >= 12; --left) {
         const std::uint32_t client = word_at(at), length = word_at(at + 8);
-        if (length >= 4 && end - at >= 16 && word_at(at + 12) == std::uint32_t(getpid())) found.push_back(client);
+        if (length >= 4 && end - at >= 16 && word_at(at + 12) == std::uint32_t(getpid()))
+            found.push_back(client);
         at += 12 + length;
     }
     return found;
@@ -189,8 +191,8 @@ std::string XConnection::watch_key(std::uint32_t symbol) {
     if (!screens.data) return "the X server has no screen";
     const std::uint32_t mask = 1u << xi_raw_key_press | 1u << xi_raw_key_release;
     send(x, connection, input_extension, xi_select_events, false,
-         bytes(screens.data->root, std::uint16_t{1}, std::uint16_t{0}, xi_all_master_devices, std::uint16_t{1},
-               mask));
+         bytes(screens.data->root, std::uint16_t{1}, std::uint16_t{0}, xi_all_master_devices,
+               std::uint16_t{1}, mask));
     x.xcb_flush(as_xcb(connection));
     return {};
 }
@@ -243,8 +245,8 @@ XConnection::Windows XConnection::find_windows() {
         if (steps.empty()) steps.push_back({screen.data->root, false});
     for (std::size_t i = 0; i < steps.size() && i < most_windows; ++i) {
         const Step step = steps[i];
-        const bool ours = std::find(clients.begin(), clients.end(),
-                                    step.window & ~setup->resource_id_mask) != clients.end();
+        const bool ours = std::find(clients.begin(), clients.end(), step.window & ~setup->resource_id_mask) !=
+                          clients.end();
         const auto ask = x.xcb_query_tree(as_xcb(connection), step.window);
         const auto ask_state = x.xcb_get_window_attributes(as_xcb(connection), step.window);
         const auto ask_size = x.xcb_get_geometry(as_xcb(connection), step.window);
@@ -293,7 +295,8 @@ std::string text_property(const Calls& x, void* connection, xcb_window_t window,
     const Reply<xcb_get_property_reply_t> reply(x.xcb_get_property_reply(as_xcb(connection), ask, nullptr));
     if (!reply || reply->format != 8) return {};
     std::string text(reinterpret_cast<const char*>(reply.get() + 1), reply->value_len);
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
     return text;
 }
 

@@ -20,8 +20,8 @@ class XConnection {
     bool alive() const;
     int file_descriptor() const;
 
-    /// From now on see each press of the key, whichever window has the focus: raw events (XInput 2) are copies, so
-    /// nobody loses any. One clear line when that cannot be.
+    /// From now on see each press of the key, whichever window has the focus: raw events (XInput 2) are
+    /// copies, so nobody loses any. One clear line when that cannot be.
     std::string watch_key(std::uint32_t symbol);
     /// How often the key went down since the last call. Does not wait.
     int key_presses();

@@ -65,9 +65,9 @@ std::string when(const OverrideRules& table, unsigned bits) {
 }
 
 void write(std::ostream& out, const OverrideRules& table) {
-    out << "\n## "  << table.name << "\n\n" << table.purpose << ".\n\n| calls | what happens | "
-        << (table.circumstances.empty() ? "" : "when | ") << "why |\n|---|---|"
-        << (table.circumstances.empty() ? "" : "---|") << "---|\n";
+    out << "\n## " << table.name << "\n\n"
+        << table.purpose << ".\n\n| calls | what happens | " << (table.circumstances.empty() ? "" : "when | ")
+        << "why |\n|---|---|" << (table.circumstances.empty() ? "" : "---|") << "---|\n";
     for (const OverrideRule& rule : table.rules) {
         out << "| " << calls_of(rule.change) << " | " << rule.change.what << " | ";
         if (!table.circumstances.empty()) out << when(table, rule.when) << " | ";

@@ -159,8 +159,10 @@ TEST_F(Command, Usage) {
 }
 
 TEST_F(Command, NamesTheCommandThatWasMeant) {
-    expect_one_line(glcast_run("foo"), 2, "no such command: foo; there are mesh, info, compare, refine, render and view");
-    expect_one_line(glcast_run("mehs a.exr -o a.glb"), 2, "no such command: mehs; do you mean mesh? There are mesh, info");
+    expect_one_line(glcast_run("foo"), 2,
+                    "no such command: foo; there are mesh, info, compare, refine, render and view");
+    expect_one_line(glcast_run("mehs a.exr -o a.glb"), 2,
+                    "no such command: mehs; do you mean mesh? There are mesh, info");
     expect_one_line(glcast_run("'\x1b[2J'"), 2, "\\x1b[2J");
 }
 
@@ -175,13 +177,14 @@ TEST_F(Command, SaysThatThereIsNoSuchFile) {
         expect_one_line(glcast_run("render " + none + " -o " + file("o.png")), 1, wanted);
         expect_one_line(glcast_run("view " + none + " -o " + file("o.html")), 1, wanted);
     }
-    expect_one_line(glcast_run("render " + file("s.exr") + " --capture " + file("n.exr") + " -o " + file("o.png")), 1,
-                    "no such file: " + file("n.exr"));
+    expect_one_line(
+        glcast_run("render " + file("s.exr") + " --capture " + file("n.exr") + " -o " + file("o.png")), 1,
+        "no such file: " + file("n.exr"));
     expect_one_line(glcast_run("info " + file(".")), 1, "is a folder");
 }
 
 TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {
-    ASSERT_EQ(write_sphere(file("s.exr"), 24), ""); // small: each limit is a search
+    ASSERT_EQ(write_sphere(file("s.exr"), 24), "");                      // small: each limit is a search
     const double sample = 3.0 / 24, diagonal = 2 * 1.2 * std::sqrt(3.0); // of the sphere's box
     const auto level_of = [&](const std::string& limit) {
         const Json made = json_of("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + limit);
@@ -202,8 +205,9 @@ TEST_F(Command, MaxErrorGivesTheCoarsestLevelWithin) {
     EXPECT_NEAR(level_of(std::to_string(100 * 0.5 * sample / diagonal) + "%")["triangles"].get<double>(),
                 half["triangles"].get<double>(), half["triangles"].get<double>() * 0.1);
     for (const char* wrong : {"0", "-1", "x", "1k", "nan"})
-        expect_one_line(glcast_run("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + wrong), 2,
-                        "is no error");
+        expect_one_line(
+            glcast_run("mesh " + file("s.exr") + " -o " + file("e.glb") + " --max-error " + wrong), 2,
+            "is no error");
 }
 
 TEST_F(Command, WhatCannotBeMetIsSaid) {
@@ -219,7 +223,8 @@ TEST_F(Command, WhatCannotBeMetIsSaid) {
 }
 
 TEST_F(Command, PixelsAskForLevels) {
-    const Json made = json_of("mesh " + file("s.exr") + " -o " + file("s.glb") + " --pixels 6,24 --levels one-file");
+    const Json made =
+        json_of("mesh " + file("s.exr") + " -o " + file("s.glb") + " --pixels 6,24 --levels one-file");
     ASSERT_EQ(made["levels"].size(), 2u);
     EXPECT_EQ(made["files"].size(), 1u);
     EXPECT_EQ(made["levels"][0]["asked"], "--pixels 24");

@@ -90,7 +90,8 @@ constexpr const char* about_gap =
 // Of the page as it was at commit 8eba374.
 constexpr const char* about_fit =
     "The paper's error looks from the original to the level alone. The fit did so too until its vertices "
-    "ran away where no sample held them (docs/design/method.md, \"Levels of detail\");\nnow it judges both ways. At "
+    "ran away where no sample held them (docs/design/method.md, \"Levels of detail\");\nnow it judges both "
+    "ways. At "
     "100 edges that costs the paper's error up to a ninth (cubes 160 at 250 edges: 14 %), and gains the "
     "other way: the original had 0.0568 "
     "(0.0809), contour 160 0.0406 (0.0537),\ncubes 160 0.0588 (0.0568). Tried without gain: less weight for "
