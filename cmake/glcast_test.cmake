@@ -1,5 +1,6 @@
-# glcast_test(NAME LABEL <unit|preload|real|paper|fuzz|hostile> SOURCES ... [LIBS ...] [TIMEOUT seconds] [SERIAL])
+# glcast_test(NAME LABEL <unit|preload|real|paper|fuzz|hostile> SOURCES ... [LIBS ...] [TIMEOUT seconds] [SERIAL] [LOCK name])
 # A GoogleTest program whose cases are CTest tests with the label. SERIAL: never beside another test of ours.
+# LOCK: never beside one with the same lock.
 include(GoogleTest)
 find_package(GTest REQUIRED)
 
@@ -12,14 +13,18 @@ if(GLCAST_SANITIZE MATCHES "address")
 endif()
 
 function(glcast_test name)
-    cmake_parse_arguments(T "SERIAL" "LABEL;TIMEOUT" "SOURCES;LIBS" ${ARGN})
+    cmake_parse_arguments(T "SERIAL" "LABEL;TIMEOUT;LOCK" "SOURCES;LIBS" ${ARGN})
     if(NOT T_TIMEOUT)
         set(T_TIMEOUT 120)
+    endif()
+    set(lock "")
+    if(T_LOCK)
+        set(lock RESOURCE_LOCK ${T_LOCK})
     endif()
     add_executable(${name} ${T_SOURCES})
     target_link_libraries(${name} PRIVATE glcast_options ${T_LIBS} GTest::gtest_main)
     gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-        PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} RUN_SERIAL $<BOOL:${T_SERIAL}>
+        PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} RUN_SERIAL $<BOOL:${T_SERIAL}> ${lock}
         ENVIRONMENT "${GLCAST_TEST_ENVIRONMENT}")
 endfunction()
 
