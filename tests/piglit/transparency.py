@@ -10,8 +10,7 @@ The same: exit status, and every line of results that the program prints, subtes
 again and again: it is only let off when it gives without us, too, what it gave with us, or when it never gives a result
 without us (glx-visuals-depth: an X error of Mesa's own ends it), or when a preload of two lines changes it just so
 (polygon-mode-facing: Mesa falls over in its atexit handlers). A program that needs more than SLOW_CPU seconds without us
-is left out. One that fell over with us, and then never again in CONFIRMATIONS runs with us, is named too ("once"); more than
-MOST_ONCE such programs are a failure. All these are named. Exit status: 0 all the same, 1 some differ, 2 nothing to run.
+is left out. All these are named. Exit status: 0 all the same, 1 some differ, 2 nothing to run.
 """
 import argparse
 import ast
@@ -31,7 +30,6 @@ FOLDERS = [*Path("/usr/lib").glob("*/piglit"), Path("/usr/lib/piglit")]
 SLOW_CPU, SHIM_CPU, WALL = 3, 10, 300  # seconds
 SPARSE = 1000  # every how many frames, for those that end ten thousand of them
 RETRIES = 6
-CONFIRMATIONS, MOST_ONCE = 25, 1  # draw-copypixels-sync: a broken heap in one run of 700
 REFUSALS = 5  # of the X server, which say nothing of the program
 REFUSED = re.compile(r"XOpenDisplay|(open|connect to) (X )?(display|server)", re.IGNORECASE)
 LEAST_PROGRAMS, LEAST_CASTING = 150, 100
@@ -131,7 +129,7 @@ class Run:
 
 
 def judge(folder, command, display, shim, neutral):
-    """(verdict, plain, ours). Verdicts: same, flaky, slow, "no result", "any preload", once, DIFFERENT."""
+    """(verdict, plain, ours). Verdicts: same, flaky, slow, "no result", "any preload", DIFFERENT."""
     plain = Run(folder, command, display, SLOW_CPU)
     if plain.slow:
         return "slow", plain, None
@@ -147,8 +145,6 @@ def judge(folder, command, display, shim, neutral):
         return "no result", plain, ours  # it never comes to one without us
     if neutral and ours.result in [Run(folder, command, display, SHIM_CPU, neutral=neutral).result for _ in range(RETRIES)]:
         return "any preload", plain, ours
-    if all(Run(folder, command, display, SHIM_CPU, shim).result == plain.result for _ in range(CONFIRMATIONS)):
-        return "once", plain, ours
     return "DIFFERENT", plain, ours
 
 
@@ -188,7 +184,7 @@ def main():
                 casting += bool(ours and ours.casts)
                 if verdict != "same" or options.verbose:
                     print(f"{verdict}: {name}: {' '.join(command)}" + (f" ({ours.casts} casts)" if ours else ""), flush=True)
-                if verdict in ("once", "DIFFERENT"):
+                if verdict == "DIFFERENT":
                     print(f"  plain: {plain.result}\n  ours:  {ours.result}\n  {ours.err[-600:]}", flush=True)
     finally:
         for server in running:
@@ -197,7 +193,7 @@ def main():
     if not options.only and (len(tests) - counts.get("slow", 0) < LEAST_PROGRAMS or casting < LEAST_CASTING):
         print(f"too few: at least {LEAST_PROGRAMS} programs and {LEAST_CASTING} that are cast")
         return 1
-    return 1 if counts.get("DIFFERENT") or counts.get("once", 0) > MOST_ONCE else 0
+    return 1 if counts.get("DIFFERENT") else 0
 
 
 if __name__ == "__main__":
